@@ -1,0 +1,109 @@
+// A picture as plain data: what the renderer draws, with no idea of what it means.
+// World units are metres, y up; colours are sRGB in [0,1].
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace render {
+
+using Vec3f = Eigen::Vector3f;
+using Color = Eigen::Vector4f;  // r g b a, sRGB, straight alpha
+
+struct Mesh {  // triangles; flat or smooth as its normals say
+  std::vector<Vec3f> positions, normals;
+  std::vector<std::uint32_t> indices;
+};
+
+// Unit primitives, scaled by Instance::size: box (full extents), sphere (diameter per axis), cylinder (x,z
+// diameter, y length), capsule (size.x = diameter, size.y = distance between the cap centres; axis y).
+enum class Primitive { kBox, kSphere, kCapsule, kCylinder, kMesh };
+
+struct Instance {
+  Primitive primitive = Primitive::kBox;
+  std::shared_ptr<const Mesh> mesh;  // for kMesh, drawn with `size` as scale
+  Vec3f size = Vec3f::Ones();
+  Vec3f position = Vec3f::Zero();
+  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
+  Color color{0.6f, 0.6f, 0.6f, 1.0f};
+  bool marked = false;  // a quiet stripe/patch pattern so that a turning sphere or cylinder shows its turning
+};
+
+struct Camera {
+  Vec3f eye{4, 3, 6}, target{0, 1, 0}, up{0, 1, 0};
+  float fieldOfViewDegrees = 35;  // vertical
+};
+
+struct Ground {  // a plane with a grid that gives scale
+  bool visible = true;
+  float height = 0;
+  float spacing = 1;  // m between fine lines; every fifth is stronger
+  Color color{0.93f, 0.93f, 0.92f, 1};
+};
+
+struct Light {
+  Vec3f direction{-0.45f, -1.0f, -0.35f};  // the way light travels
+  bool shadows = true;
+};
+
+// Overlay geometry in the world, drawn with constant width in pixels (at 720 lines; scales with the size).
+struct Line {
+  Vec3f from = Vec3f::Zero(), to = Vec3f::Zero();
+  Color color{0, 0, 0, 1};
+  float width = 2;
+  bool arrow = false;
+  bool onTop = true;  // seen through bodies
+};
+struct Dot {
+  Vec3f at = Vec3f::Zero();
+  Color color{0, 0, 0, 1};
+  float diameter = 7;
+};
+struct Label {  // text at a place of the world, offset in pixels
+  Vec3f at = Vec3f::Zero();
+  std::string text;
+  Eigen::Vector2f offset{8, -8};
+  Color color{0.1f, 0.1f, 0.1f, 1};
+  float size = 18;  // pixels at 720 lines
+};
+
+struct Plot {  // a running plot of the HUD
+  std::string title, unit;
+  struct Curve {
+    std::string name;
+    std::vector<float> values;
+    Color color{0, 0, 0, 1};
+  };
+  std::vector<Curve> curves;  // one value per frame from 0 to now
+  int length = 0;             // frames the axis spans; 0: as many as there are
+  bool logarithmic = false;
+};
+
+struct Hud {
+  bool visible = false;
+  std::string title;
+  std::vector<std::array<std::string, 2>> rows;  // name, value
+  std::vector<Plot> plots;
+};
+
+struct Picture {
+  Camera camera;
+  Light light;
+  Ground ground;
+  std::vector<Instance> instances;
+  std::vector<Line> lines;
+  std::vector<Dot> dots;
+  std::vector<Label> labels;
+  Hud hud;
+  std::string caption;  // one line at the lower left, empty: none
+  Color background{1, 1, 1, 1};
+  Vec3f focusCenter{0, 1, 0};  // the sphere that shadows must cover
+  float focusRadius = 5;
+};
+
+}  // namespace render
