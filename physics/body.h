@@ -1,0 +1,56 @@
+// What a caller fills in to add a body, and what the step runs on.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "physics/shape.h"
+#include "physics/types.h"
+
+namespace physics {
+
+enum class Motion {
+  kDynamic,
+  kStatic,     // never moves
+  kKinematic,  // moves with its velocities, whatever pushes it
+};
+
+struct Friction {
+  double staticCoefficient = 0.5;   // nu_s of (101)
+  double dynamicCoefficient = 0.5;  // nu_d <= nu_s
+};
+
+struct BodyDef {
+  Shape shape = PointShape{};
+  double mass = 1;              // kg, > 0 where the body is dynamic
+  std::optional<Vec3> inertia;  // principal moments, body frame [kg m^2]; absent: the shape's at this mass
+  Pose pose;
+  Velocity velocity;
+  Motion motion = Motion::kDynamic;
+  std::optional<Friction> friction;  // absent: the World's
+};
+
+// The inverse mass and the inverse inertia in the world frame; zeros where nothing moves.
+struct InverseMass {
+  double m = 0;                // 1/kg
+  Mat3 inertia = Mat3::Zero();  // 1/(kg m^2), at the pose of the last refresh
+};
+
+// Bodies as the solver sees them: arrays indexed by BodyId.
+struct Bodies {
+  std::vector<Pose> pose;             // X^{t+1} + Delta X while a step is being solved
+  std::vector<Pose> start;            // X^t, the start of the present substep
+  std::vector<Velocity> velocity;
+  std::vector<InverseMass> inverse;
+  std::vector<Vec3> inverseInertia;   // principal, body frame; zero: does not rotate by torque
+  std::vector<Vec3> inertia;          // principal, body frame
+  std::vector<double> mass;
+  std::vector<Motion> motion;
+  std::vector<Vec3> freeTurn;         // log of the predicted rotation of this substep, world frame [rad]
+  std::vector<Shape> shape;
+  std::vector<Friction> friction;
+
+  int size() const { return static_cast<int>(pose.size()); }
+};
+
+}  // namespace physics

@@ -1,0 +1,45 @@
+// Drive: a damped angular spring towards a target orientation, with a torque limit; a muscle.
+//   dtheta = log(q_j target^-1 q_i^-1), the turn of body j past its target against body i [rad]     (129)
+//   tau = -k dtheta - nu d(dtheta)/dt on body j, opposite on i, |tau| <= tau_max            (128),(132)
+//   as rows: alpha = 1/(k h^2 + nu h), c = alpha (k h^2 dtheta + nu h (turn since t)), J = -1, +1   (130)
+//   k = nu = 0 is no row at all. At |dtheta| = pi the shorter way is ambiguous and one is taken.
+#pragma once
+
+#include "physics/constraint.h"
+#include "physics/fields.h"
+
+namespace physics {
+
+struct DriveDef {
+  static constexpr const char* kWord = "drive";
+  std::array<BodyId, 2> bodies{};
+  std::optional<Quat> target;  // orientation of bodies[1] in bodies[0]'s frame; absent: as at the start
+  double stiffness = 20;                                        // k [N m/rad]
+  double damping = 0.2;                                         // nu [N m s]
+  double maxTorque = std::numeric_limits<double>::infinity();  // tau_max [N m]
+  Tuning tuning;
+  template <class V, class D>
+  static void fields(V& v, D& d) {
+    v(Field{"bodies", Unit::kNone, true}, d.bodies);
+    v(Field{"target"}, d.target);
+    v(Field{"stiffness", Unit::kNewtonMetrePerRadian, true, 0}, d.stiffness);
+    v(Field{"damping", Unit::kNewtonMetreSecond, false, 0}, d.damping);
+    v(Field{"max_torque", Unit::kNewtonMetre, false, 0}, d.maxTorque);
+    Tuning::fields(v, d.tuning);
+  }
+};
+
+struct Drive {
+  static constexpr int kBodies = 2, kRows = 3;
+  static constexpr bool kLinear = false;
+  static constexpr const char* kUnit = "N m";
+  std::array<BodyId, 2> bodies{};
+  Quat target = Quat::Identity();
+  double stiffness = 20, damping = 0.2, maxTorque = std::numeric_limits<double>::infinity();
+
+  Vec3 error(std::span<const Pose> pose) const;  // dtheta, world frame [rad]
+  void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
+  void bound(double dt, Vec3& total) const;
+};
+
+}  // namespace physics
