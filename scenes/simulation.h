@@ -1,0 +1,73 @@
+// A scene being simulated: the World, the names of its bodies, what is scripted, and its measures.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "physics/measure.h"
+#include "physics/world.h"
+#include "scenes/scene.h"
+
+namespace scenes {
+
+// What one frame measures; the columns of the metrics CSV.
+struct FrameMetrics {
+  int frame = 0;
+  double time = 0;  // frame / fps
+  double kinetic = 0, potential = 0, total = 0;
+  physics::Vec3 linearMomentum = physics::Vec3::Zero(), angularMomentum = physics::Vec3::Zero();
+  std::vector<physics::KindError> errors;
+  double overlap = 0;
+  double maxSpeed = 0;
+  int contacts = 0;
+  int iterations = 0;
+};
+
+class Simulation {
+ public:
+  explicit Simulation(const Scene& scene);  // throws InputError where the World refuses a value
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+
+  // Applies what is scripted (pose sequences, kinematic paths) and steps to the next frame.
+  physics::StepReport advance();
+
+  int frame() const;
+  const Scene& scene() const;
+  const physics::World& world() const;
+  FrameMetrics metrics() const;
+  std::uint64_t stateHash() const;
+
+  const std::string& bodyName(physics::BodyId body) const;
+  physics::BodyId findBody(const std::string& name) const;  // -1: none
+
+  struct Appearance;  // colours and meshes, for the view
+  const Appearance& appearance() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Runs the scene's [[expect]] along a simulation: feed every frame from 0, then ask.
+class Checker {
+ public:
+  explicit Checker(const Scene& scene);
+  ~Checker();
+  void observe(const Simulation& simulation);
+  struct Verdict {
+    Expectation expectation;
+    double value = 0;  // the worst over its span
+    double atTime = 0;
+    bool holds = true;
+    std::string text;  // "joint_error 3.1e-07 m <= 1e-06 m"
+  };
+  std::vector<Verdict> verdicts() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace scenes

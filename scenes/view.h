@@ -1,0 +1,28 @@
+// World + Appearance -> Picture.
+#pragma once
+
+#include "render/picture.h"
+#include "scenes/simulation.h"
+
+namespace scenes {
+
+// Bounds of all that moves, over every frame fed to it; what a fitting camera needs.
+struct MotionBounds {
+  physics::Vec3 low = physics::Vec3::Constant(1e300), high = physics::Vec3::Constant(-1e300);
+  void include(const Simulation& simulation);
+};
+
+// True when the scene's camera must know the whole motion before the first picture.
+bool needsMotionBounds(const Scene& scene);
+
+struct ViewOptions {
+  bool hud = false;
+  Overlays overlays;
+  double aspect = 16.0 / 9;
+};
+
+// The picture of the simulation's present frame. `history`: metrics of frames 0..now, for the HUD.
+render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
+                     const ViewOptions& options, const std::vector<FrameMetrics>& history);
+
+}  // namespace scenes
