@@ -20,8 +20,9 @@ struct Mesh {  // triangles; flat or smooth as its normals say
   std::vector<std::uint32_t> indices;
 };
 
-// Unit primitives, scaled by Instance::size: box (full extents), sphere (diameter per axis), cylinder (x,z
-// diameter, y length), capsule (size.x = diameter, size.y = distance between the cap centres; axis y).
+// Unit primitives, scaled by Instance::size: box (full extents), sphere (diameter per axis),
+// cylinder (x,z diameter, y length), capsule (size.x = diameter, size.y = distance between the cap
+// centres; axis y).
 enum class Primitive { kBox, kSphere, kCapsule, kCylinder, kMesh };
 
 struct Instance {
@@ -31,7 +32,8 @@ struct Instance {
   Vec3f position = Vec3f::Zero();
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
   Color color{0.6f, 0.6f, 0.6f, 1.0f};
-  bool marked = false;  // a quiet stripe/patch pattern so that a turning sphere or cylinder shows its turning
+  bool marked =
+      false;  // a quiet stripe/patch pattern so that a turning sphere or cylinder shows its turning
 };
 
 struct Camera {
@@ -51,7 +53,8 @@ struct Light {
   bool shadows = true;
 };
 
-// Overlay geometry in the world, drawn with constant width in pixels (at 720 lines; scales with the size).
+// Overlay geometry in the world, drawn with constant width in pixels (at 720 lines; scales with the
+// size).
 struct Line {
   Vec3f from = Vec3f::Zero(), to = Vec3f::Zero();
   Color color{0, 0, 0, 1};

@@ -19,7 +19,8 @@ struct RendererOptions {
 
 class Renderer {
  public:
-  explicit Renderer(const RendererOptions& options);  // throws std::runtime_error when OSMesa gives no context
+  explicit Renderer(
+      const RendererOptions& options);  // throws std::runtime_error when OSMesa gives no context
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

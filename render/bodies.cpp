@@ -1,0 +1,200 @@
+// Instanced drawing of boxes, spheres, capsules, cylinders and meshes.
+#include "render/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "render/shaders.h"
+
+namespace render {
+namespace {
+
+// Segments around a round body, by level of detail. A silhouette of n segments is off by
+// 5 r / n^2 pixels, so each level serves radii up to n^2 / 50 pixels with an error of a tenth.
+constexpr std::array<int, 4> kSegments = {16, 32, 64, 128};
+constexpr std::size_t kLevels = kSegments.size();
+constexpr std::size_t kFirstMesh = 1 + 3 * kLevels;
+
+std::size_t levelFor(float radiusInPixels) {
+  std::size_t level = 0;
+  while (level + 1 < kLevels &&
+         radiusInPixels > static_cast<float>(kSegments[level] * kSegments[level]) / 50)
+    ++level;
+  return level;
+}
+
+// sRGB to linear by a polynomial: no libm, whose last bit depends on the CPU. Error below 1e-3.
+float linear(float c) { return c * (c * (c * 0.305306011f + 0.682171111f) + 0.012522878f); }
+
+template <typename T>
+void fillBuffer(GLenum target, GLuint buffer, const std::vector<T>& data, GLenum usage) {
+  glBindBuffer(target, buffer);
+  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
+}
+
+void setAttribute(GLuint index, int size, std::size_t stride, std::size_t offset) {
+  glEnableVertexAttribArray(index);
+  glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                        reinterpret_cast<const void*>(offset));
+}
+
+}  // namespace
+
+Bodies::Bodies() {
+  colorProgram_ = makeProgram(kBodyVertex, kBodyFragment);
+  casterProgram_ = makeProgram(kBodyVertex, kCasterFragment, "#define CASTER\n");
+  instanceBuffer_ = makeBuffer();
+  shapes_.push_back(upload(unitBox(), true));
+  for (const auto make : {unitSphere, unitCapsule, unitCylinder})
+    for (const int segments : kSegments) shapes_.push_back(upload(make(segments), true));
+}
+
+Bodies::Shape Bodies::upload(const Geometry& geometry, bool closed) const {
+  Shape shape{makeVertexArray(), makeBuffer(), makeBuffer(),
+              static_cast<GLsizei>(geometry.indices.size()), closed};
+  glBindVertexArray(shape.array);
+  fillBuffer(GL_ARRAY_BUFFER, shape.vertices, geometry.vertices, GL_STATIC_DRAW);
+  fillBuffer(GL_ELEMENT_ARRAY_BUFFER, shape.indices, geometry.indices, GL_STATIC_DRAW);
+  setAttribute(0, 4, sizeof(Vertex), offsetof(Vertex, position));
+  setAttribute(1, 3, sizeof(Vertex), offsetof(Vertex, normal));
+  setAttribute(2, 2, sizeof(Vertex), offsetof(Vertex, edge));
+  for (GLuint index = 3; index < 7; ++index) glVertexAttribDivisor(index, 1);
+  return shape;
+}
+
+std::size_t Bodies::shapeOf(const Instance& instance, float pixels) {
+  switch (instance.primitive) {
+    case Primitive::kSphere:
+      return 1 + levelFor(pixels);
+    case Primitive::kCapsule:
+      return 1 + kLevels + levelFor(pixels);
+    case Primitive::kCylinder:
+      return 1 + 2 * kLevels + levelFor(pixels);
+    case Primitive::kMesh:
+      return shapeOfMesh(instance.mesh);
+    case Primitive::kBox:
+      break;
+  }
+  return 0;
+}
+
+std::size_t Bodies::shapeOfMesh(const std::shared_ptr<const Mesh>& mesh) {
+  Kept& kept = meshes_[mesh.get()];
+  if (!kept.mesh) {
+    const Shape shape = upload(geometryOf(*mesh), false);
+    if (freeShapes_.empty()) {
+      kept.shape = shapes_.size();
+      shapes_.push_back(shape);
+    } else {
+      kept.shape = freeShapes_.back();
+      freeShapes_.pop_back();
+      shapes_[kept.shape] = shape;
+    }
+    kept.mesh = mesh;
+  }
+  kept.used = true;
+  return kept.shape;
+}
+
+void Bodies::dropUnusedMeshes() {
+  for (auto at = meshes_.begin(); at != meshes_.end();) {
+    Kept& kept = at->second;
+    if (kept.mesh && kept.used) {
+      kept.used = false;
+      ++at;
+      continue;
+    }
+    if (kept.mesh) {
+      const Shape& shape = shapes_[kept.shape];
+      glDeleteVertexArrays(1, &shape.array);
+      glDeleteBuffers(1, &shape.vertices);
+      glDeleteBuffers(1, &shape.indices);
+      freeShapes_.push_back(kept.shape);
+    }
+    at = meshes_.erase(at);
+  }
+}
+
+void Bodies::sortInstances(const Picture& picture, const Frame& frame) {
+  sorted_.clear();
+  for (std::size_t i = 0; i < picture.instances.size(); ++i) {
+    const Instance& instance = picture.instances[i];
+    const float alpha = instance.color.w();
+    if (alpha <= 0) continue;
+    const float depth = frame.depthOf(instance.position);
+    const float thick = instance.primitive == Primitive::kSphere
+                            ? instance.size.cwiseAbs().maxCoeff()
+                            : std::max(std::abs(instance.size.x()), std::abs(instance.size.z()));
+    const float pixels = frame.pixelsPerMetre * thick / 2 / std::max(depth, frame.nearest);
+    sorted_.push_back({shapeOf(instance, pixels), i, depth, alpha >= 1, alpha >= 0.5f});
+  }
+  const auto key = [](const Sorted& s) {
+    return s.opaque ? std::tuple(0, s.shape, s.depth, s.instance)
+                    : std::tuple(1, std::size_t{0}, -s.depth, s.instance);
+  };
+  std::sort(sorted_.begin(), sorted_.end(),
+            [key](const Sorted& a, const Sorted& b) { return key(a) < key(b); });
+}
+
+void Bodies::fillBatches(const Picture& picture) {
+  data_.clear();
+  batches_.clear();
+  for (const Sorted& s : sorted_) {
+    const Instance& instance = picture.instances[s.instance];
+    const bool capsule = instance.primitive == Primitive::kCapsule;
+    const Vec3f& p = instance.position;
+    const Eigen::Vector4f turn = instance.orientation.normalized().coeffs();
+    const Vec3f scale = capsule ? Vec3f::Constant(instance.size.x()) : instance.size;
+    const Color& c = instance.color;
+    data_.push_back({{p.x(), p.y(), p.z(), capsule ? instance.size.y() / 2 : 0.0f},
+                     {turn.x(), turn.y(), turn.z(), turn.w()},
+                     {scale.x(), scale.y(), scale.z(), instance.marked ? 1.0f : 0.0f},
+                     {linear(c.x()), linear(c.y()), linear(c.z()), c.w()}});
+    const bool same = !batches_.empty() && batches_.back().shape == s.shape &&
+                      batches_.back().opaque == s.opaque && batches_.back().casts == s.casts;
+    if (!same) batches_.push_back({s.shape, data_.size() - 1, 0, s.opaque, s.casts});
+    ++batches_.back().count;
+  }
+}
+
+void Bodies::arrange(const Picture& picture, const Frame& frame) {
+  sortInstances(picture, frame);
+  dropUnusedMeshes();
+  fillBatches(picture);
+  fillBuffer(GL_ARRAY_BUFFER, instanceBuffer_, data_, GL_STREAM_DRAW);
+}
+
+void Bodies::drawBatch(const Batch& batch) const {
+  const Shape& shape = shapes_[batch.shape];
+  glBindVertexArray(shape.array);
+  glBindBuffer(GL_ARRAY_BUFFER, instanceBuffer_);
+  const std::size_t start = batch.first * sizeof(InstanceData);
+  for (GLuint i = 0; i < 4; ++i) setAttribute(3 + i, 4, sizeof(InstanceData), start + 16 * i);
+  glDrawElementsInstanced(GL_TRIANGLES, shape.count, GL_UNSIGNED_INT, nullptr, batch.count);
+}
+
+void Bodies::drawCasters() const {
+  glUseProgram(casterProgram_);
+  for (const Batch& batch : batches_)
+    if (batch.casts) drawBatch(batch);
+}
+
+void Bodies::draw() const {
+  glUseProgram(colorProgram_);
+  for (const Batch& batch : batches_) {
+    if (shapes_[batch.shape].closed)
+      glEnable(GL_CULL_FACE);
+    else
+      glDisable(GL_CULL_FACE);
+    if (batch.opaque)
+      glDisable(GL_BLEND);
+    else
+      glEnable(GL_BLEND);
+    drawBatch(batch);
+  }
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+}
+
+}  // namespace render

@@ -1,0 +1,71 @@
+// The instances of a picture, sorted into instanced draws, for the shadow map and for the picture.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "render/frame.h"
+#include "render/geometry.h"
+#include "render/gl.h"
+#include "render/picture.h"
+
+namespace render {
+
+class Bodies {
+ public:
+  Bodies();
+
+  // Sorts and uploads the instances: opaque ones by geometry and front to back, then translucent
+  // ones back to front. Ties keep the order of the picture.
+  void arrange(const Picture& picture, const Frame& frame);
+
+  void drawCasters() const;  // opaque and half opaque ones, into a shadow map
+  void draw() const;         // all, into a framebuffer of premultiplied colour
+  bool empty() const { return batches_.empty(); }
+
+ private:
+  struct Shape {  // a geometry on the GPU
+    GLuint array = 0, vertices = 0, indices = 0;
+    GLsizei count = 0;
+    bool closed = true;  // its back is never seen
+  };
+  struct Kept {  // holding the mesh keeps its address from being used again
+    std::shared_ptr<const Mesh> mesh;
+    std::size_t shape = 0;
+    bool used = false;
+  };
+  struct InstanceData {
+    std::array<float, 4> place, turn, scale, tint;
+  };
+  struct Sorted {
+    std::size_t shape = 0, instance = 0;
+    float depth = 0;
+    bool opaque = true, casts = true;
+  };
+  struct Batch {
+    std::size_t shape = 0, first = 0;
+    GLsizei count = 0;
+    bool opaque = true, casts = true;
+  };
+
+  Shape upload(const Geometry& geometry, bool closed) const;
+  std::size_t shapeOf(const Instance& instance, float pixels);
+  std::size_t shapeOfMesh(const std::shared_ptr<const Mesh>& mesh);
+  void dropUnusedMeshes();
+  void sortInstances(const Picture& picture, const Frame& frame);
+  void fillBatches(const Picture& picture);
+  void drawBatch(const Batch& batch) const;
+
+  GLuint colorProgram_ = 0, casterProgram_ = 0, instanceBuffer_ = 0;
+  std::vector<Shape> shapes_;  // box, then the levels of the round ones, then meshes
+  std::unordered_map<const Mesh*, Kept> meshes_;
+  std::vector<std::size_t> freeShapes_;
+  std::vector<Sorted> sorted_;
+  std::vector<InstanceData> data_;
+  std::vector<Batch> batches_;
+};
+
+}  // namespace render

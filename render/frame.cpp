@@ -1,0 +1,179 @@
+// Camera, light and ground of a picture as the numbers that the shaders read.
+#include "render/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace render {
+namespace {
+
+constexpr float kPi = 3.14159265f;
+
+void requireFinite(bool finite, const std::string& what) {
+  if (!finite) throw std::invalid_argument("picture: a number that is not finite in " + what);
+}
+
+void checkInstances(const Picture& picture) {
+  for (std::size_t i = 0; i < picture.instances.size(); ++i) {
+    const Instance& instance = picture.instances[i];
+    requireFinite(instance.position.allFinite() && instance.size.allFinite() &&
+                      instance.orientation.coeffs().allFinite() && instance.color.allFinite(),
+                  "instance " + std::to_string(i));
+    if (instance.primitive == Primitive::kMesh && !instance.mesh)
+      throw std::invalid_argument("picture: instance " + std::to_string(i) + " has no mesh");
+  }
+}
+
+void checkCamera(const Picture& picture) {
+  const Camera& camera = picture.camera;
+  requireFinite(camera.eye.allFinite() && camera.target.allFinite() && camera.up.allFinite(),
+                "the camera");
+  requireFinite(picture.focusCenter.allFinite() && std::isfinite(picture.focusRadius), "the focus");
+  requireFinite(picture.light.direction.allFinite(), "the light");
+  requireFinite(std::isfinite(picture.ground.height) && std::isfinite(picture.ground.spacing),
+                "the ground");
+  if (camera.eye == camera.target) throw std::invalid_argument("camera: eye and target coincide");
+  if (!(camera.fieldOfViewDegrees > 0 && camera.fieldOfViewDegrees < 170))
+    throw std::invalid_argument("camera: field of view must lie in (0, 170) degrees, got " +
+                                std::to_string(camera.fieldOfViewDegrees));
+  if (picture.light.direction.norm() == 0 || picture.focusRadius <= 0)
+    throw std::invalid_argument("picture: light direction and focus radius must not be zero");
+}
+
+// Any unit vector normal to unit n, steered by `hint` where that is possible.
+Vec3f normalTo(const Vec3f& n, const Vec3f& hint) {
+  const Vec3f side = n.cross(hint);
+  if (side.norm() > 1e-4f * hint.norm()) return side.normalized();
+  return n.cross(std::abs(n.x()) < 0.7f ? Vec3f::UnitX().eval() : Vec3f::UnitZ().eval())
+      .normalized();
+}
+
+void setCamera(Frame& frame, const Picture& picture) {
+  const Camera& camera = picture.camera;
+  frame.eye = camera.eye;
+  frame.ahead = (camera.target - camera.eye).normalized();
+  frame.right = normalTo(frame.ahead, camera.up);
+  frame.up = frame.right.cross(frame.ahead);
+  frame.pixelsPerMetre =
+      static_cast<float>(frame.height) / (2 * std::tan(camera.fieldOfViewDegrees * kPi / 360));
+}
+
+// Near and far planes just around what is there, so that depth stays precise.
+void setProjection(Frame& frame, const Picture& picture) {
+  float nearest = frame.depthOf(picture.focusCenter) - picture.focusRadius;
+  float farthest = frame.depthOf(picture.focusCenter) + picture.focusRadius;
+  for (const Instance& instance : picture.instances) {
+    const float depth = frame.depthOf(instance.position), radius = radiusOf(instance);
+    nearest = std::min(nearest, depth - radius);
+    farthest = std::max(farthest, depth + radius);
+  }
+  farthest = std::max(farthest, 1e-3f) * 1.01f;
+  frame.nearest = std::max(nearest * 0.99f, farthest * 2e-4f);
+  const float n = frame.nearest, f = farthest;
+  const float h = 2 * frame.pixelsPerMetre / static_cast<float>(frame.height);
+  const float aspect = static_cast<float>(frame.width) / static_cast<float>(frame.height);
+  Eigen::Matrix4f view = Eigen::Matrix4f::Identity(), projection = Eigen::Matrix4f::Zero();
+  view.block<1, 3>(0, 0) = frame.right.transpose();
+  view.block<1, 3>(1, 0) = frame.up.transpose();
+  view.block<1, 3>(2, 0) = -frame.ahead.transpose();
+  view.block<3, 1>(0, 3) = -(view.block<3, 3>(0, 0) * frame.eye);
+  projection(0, 0) = h / aspect;
+  projection(1, 1) = h;
+  projection(2, 2) = -(f + n) / (f - n);
+  projection(2, 3) = -2 * f * n / (f - n);
+  projection(3, 2) = -1;
+  frame.block.toClip = projection * view;
+}
+
+// Orthographic, along the light, around the sphere in focus. Casters in front of the sphere are
+// clamped to its near side.
+void setShadow(Frame& frame, const Picture& picture, const Detail& detail) {
+  const Vec3f along = picture.light.direction.normalized();
+  const Vec3f side = normalTo(along, Vec3f::UnitY()), up = side.cross(along);
+  const float radius = picture.focusRadius * 1.05f;
+  Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
+  m.block<1, 3>(0, 0) = side.transpose() / (2 * radius);
+  m.block<1, 3>(1, 0) = up.transpose() / (2 * radius);
+  m.block<1, 3>(2, 0) = along.transpose() / (2 * radius);
+  m.block<3, 1>(0, 3) = Vec3f::Constant(0.5f) - m.block<3, 3>(0, 0) * picture.focusCenter;
+  const float texel = 2 * radius / static_cast<float>(detail.shadowSize);
+  frame.block.toShadow = m;
+  frame.block.towardLight.head<3>() = -along;
+  frame.block.towardLight.w() = 0;
+  frame.block.shadow << (picture.light.shadows ? 1.0f : 0.0f), 1.2f * texel,
+      1.0f / static_cast<float>(detail.shadowSize), static_cast<float>(detail.shadowTaps);
+  // y = height on the ray of (u, v): the inverse of m has the orthogonal rows of m as columns.
+  const Vec3f perMap = 2 * radius * Vec3f(side.y(), up.y(), along.y());
+  const float middle = picture.focusCenter.y() - 0.5f * perMap.sum();
+  const float steep = std::min(perMap.z(), -1e-3f * radius);
+  frame.block.shadowOfGround << -perMap.x() / steep, -perMap.y() / steep,
+      (picture.ground.height - middle) / steep, 3.0f;
+}
+
+void setGround(Frame& frame, const Picture& picture) {
+  const Ground& ground = picture.ground;
+  const Vec3f toFocus = picture.focusCenter - frame.eye;
+  const float distance = std::hypot(toFocus.x(), toFocus.z());
+  frame.groundDrawn = ground.visible && frame.eye.y() > ground.height;
+  const float begin = 1.5f * picture.focusRadius + 0.5f * distance;
+  const float scale = frame.scale;
+  frame.block.ground << ground.height, (frame.groundDrawn ? 1.0f : 0.0f),
+      std::max(ground.spacing, 1e-3f), 0.55f * std::max(scale, 0.75f);
+  frame.block.groundFade << picture.focusCenter.x(), picture.focusCenter.z(), begin, 3.2f * begin;
+  frame.block.groundColor = ground.color;
+}
+
+}  // namespace
+
+Detail detailOf(Quality quality) {
+  switch (quality) {
+    case Quality::kDraft:
+      return {1, 1, 1024, 1};
+    case Quality::kPaper:
+      return {4, 2, 2048, 3};
+    case Quality::kStandard:
+      break;
+  }
+  return {4, 1, 1024, 2};
+}
+
+float radiusOf(const Instance& instance) {
+  const Vec3f size = instance.size.cwiseAbs();
+  switch (instance.primitive) {
+    case Primitive::kSphere:
+      return size.maxCoeff() / 2;
+    case Primitive::kCapsule:
+      return (size.x() + size.y()) / 2;
+    case Primitive::kMesh: {
+      float squared = 0;
+      for (const Vec3f& p : instance.mesh->positions)
+        squared = std::max(squared, p.cwiseProduct(size).squaredNorm());
+      return std::sqrt(squared);
+    }
+    case Primitive::kBox:
+    case Primitive::kCylinder:
+      break;
+  }
+  return size.norm() / 2;
+}
+
+Frame frameOf(const Picture& picture, const RendererOptions& options, const Detail& detail) {
+  checkCamera(picture);
+  checkInstances(picture);
+  Frame frame;
+  frame.width = options.width * detail.supersample;
+  frame.height = options.height * detail.supersample;
+  frame.scale = static_cast<float>(frame.height) / 720.0f;
+  setCamera(frame, picture);
+  setProjection(frame, picture);
+  setShadow(frame, picture, detail);
+  setGround(frame, picture);
+  frame.block.eye = frame.eye.homogeneous();
+  frame.block.background = picture.background;
+  frame.block.pixels << static_cast<float>(frame.width), static_cast<float>(frame.height),
+      std::max(0.9f * frame.scale, 0.6f), picture.focusRadius;
+  return frame;
+}
+
+}  // namespace render

@@ -1,0 +1,55 @@
+// What every pass needs to know of one picture: matrices, light, sizes. Plain numbers, no OpenGL.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "render/picture.h"
+#include "render/renderer.h"
+
+namespace render {
+
+// What a quality stands for.
+struct Detail {
+  int samples = 4;        // of multisampling; 1: none
+  int supersample = 1;    // the scene is drawn this many times wider and higher
+  int shadowSize = 1024;  // texels of the shadow map across the sphere in focus
+  int shadowTaps = 2;     // per side of the square of taps on a body
+};
+Detail detailOf(Quality quality);
+
+// The block `Frame` of the shaders, std140: matrices and vectors of four only.
+struct FrameBlock {
+  Eigen::Matrix4f toClip;    // world -> clip space
+  Eigen::Matrix4f toShadow;  // world -> shadow map, [0,1] in each direction
+  Eigen::Vector4f eye;
+  Eigen::Vector4f towardLight;
+  Eigen::Vector4f ground;      // height, 1 when drawn, spacing of the fine lines, line width in px
+  Eigen::Vector4f groundFade;  // centre x and z, distances where it begins to fade and is gone
+  Eigen::Vector4f groundColor;
+  Eigen::Vector4f background;
+  Eigen::Vector4f shadow;          // 1 when on, offset along the normal [m], texel, taps per side
+  Eigen::Vector4f shadowOfGround;  // depth of the ground in the map: x u + y v + z; w: softening
+  Eigen::Vector4f
+      pixels;  // width, height of the scene in pixels, edge width in px, radius in focus
+};
+
+struct Frame {
+  FrameBlock block;
+  int width = 0, height = 0;              // of the scene as drawn, supersampled
+  Eigen::Vector3f eye, right, up, ahead;  // orthonormal; `ahead` looks at the target
+  float nearest = 0;                      // distance of the near plane
+  float pixelsPerMetre = 0;               // of something one metre away
+  float scale = 1;                        // scene pixels per pixel of a picture of 720 lines
+  bool groundDrawn = false;
+
+  float depthOf(const Vec3f& point) const { return ahead.dot(point - eye); }
+};
+
+// Throws std::invalid_argument when the picture has a number that is not finite, an instance
+// without its mesh, or a camera that looks nowhere.
+Frame frameOf(const Picture& picture, const RendererOptions& options, const Detail& detail);
+
+// A ball around an instance: radius about its position.
+float radiusOf(const Instance& instance);
+
+}  // namespace render

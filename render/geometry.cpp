@@ -1,0 +1,137 @@
+// Unit box, sphere, capsule and cylinder as triangles.
+#include "render/geometry.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace render {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+std::uint32_t countOf(const Geometry& geometry) {
+  return static_cast<std::uint32_t>(geometry.vertices.size());
+}
+
+void addQuad(Geometry& geometry, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+             std::uint32_t d) {
+  for (const std::uint32_t index : {a, b, c, a, c, d}) geometry.indices.push_back(index);
+}
+
+// One circle of vertices on the sphere at `latitude`; the first is repeated at the end.
+void addRing(Geometry& geometry, int segments, double latitude, float end) {
+  for (int i = 0; i <= segments; ++i) {
+    const double longitude = 2 * kPi * i / segments;
+    const auto x = static_cast<float>(std::cos(latitude) * std::cos(longitude));
+    const auto y = static_cast<float>(std::sin(latitude));
+    const auto z = static_cast<float>(-std::cos(latitude) * std::sin(longitude));
+    geometry.vertices.push_back({{x / 2, y / 2, z / 2, end}, {x, y, z}, {0, 0}});
+  }
+}
+
+void joinRings(Geometry& geometry, int segments, std::uint32_t lower, std::uint32_t upper) {
+  for (int i = 0; i < segments; ++i) {
+    const auto k = static_cast<std::uint32_t>(i);
+    addQuad(geometry, lower + k, lower + k + 1, upper + k + 1, upper + k);
+  }
+}
+
+// Rings from the south pole up; a capsule repeats the equator, once for each end.
+Geometry roundBody(int segments, bool capsule) {
+  Geometry geometry;
+  const int half = segments / 4;
+  const auto stride = static_cast<std::uint32_t>(segments) + 1;
+  for (int ring = -half; ring <= 0; ++ring)
+    addRing(geometry, segments, kPi / 2 * ring / half, capsule ? -1.0f : 0.0f);
+  for (int ring = capsule ? 0 : 1; ring <= half; ++ring)
+    addRing(geometry, segments, kPi / 2 * ring / half, capsule ? 1.0f : 0.0f);
+  const std::uint32_t rings = countOf(geometry) / stride;
+  for (std::uint32_t ring = 0; ring + 1 < rings; ++ring)
+    joinRings(geometry, segments, ring * stride, (ring + 1) * stride);
+  return geometry;
+}
+
+void addCap(Geometry& geometry, int segments, float y) {
+  const std::uint32_t center = countOf(geometry);
+  const float normal = y > 0 ? 1.0f : -1.0f;
+  geometry.vertices.push_back({{0, y, 0, 0}, {0, normal, 0}, {0, 0}});
+  for (int i = 0; i <= segments; ++i) {
+    const double angle = 2 * kPi * i / segments;
+    const auto x = static_cast<float>(std::cos(angle) / 2);
+    const auto z = static_cast<float>(-std::sin(angle) / 2);
+    geometry.vertices.push_back({{x, y, z, 0}, {0, normal, 0}, {1, 0}});
+  }
+  for (std::uint32_t i = 1; i <= static_cast<std::uint32_t>(segments); ++i) {
+    const std::uint32_t first = center + (y > 0 ? i : i + 1), second = center + (y > 0 ? i + 1 : i);
+    for (const std::uint32_t index : {center, first, second}) geometry.indices.push_back(index);
+  }
+}
+
+}  // namespace
+
+Geometry unitBox() {
+  Geometry geometry;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      const std::uint32_t first = countOf(geometry);
+      const std::size_t n = static_cast<std::size_t>(axis), u = (n + 1) % 3, v = (n + 2) % 3;
+      for (const auto& [a, b] :
+           {std::array{-1.0f, -1.0f}, {1.0f, -1.0f}, {1.0f, 1.0f}, {-1.0f, 1.0f}}) {
+        Vertex vertex{{0, 0, 0, 0}, {0, 0, 0}, {a, b}};
+        vertex.position[n] = side / 2;
+        vertex.position[u] = a / 2;
+        vertex.position[v] = b / 2;
+        vertex.normal[n] = side;
+        geometry.vertices.push_back(vertex);
+      }
+      if (side > 0)
+        addQuad(geometry, first, first + 1, first + 2, first + 3);
+      else
+        addQuad(geometry, first, first + 3, first + 2, first + 1);
+    }
+  }
+  return geometry;
+}
+
+Geometry unitSphere(int segments) { return roundBody(segments, false); }
+
+Geometry unitCapsule(int segments) { return roundBody(segments, true); }
+
+Geometry unitCylinder(int segments) {
+  Geometry geometry;
+  for (const float y : {-0.5f, 0.5f}) {
+    for (int i = 0; i <= segments; ++i) {
+      const double angle = 2 * kPi * i / segments;
+      const auto x = static_cast<float>(std::cos(angle)), z = static_cast<float>(-std::sin(angle));
+      geometry.vertices.push_back({{x / 2, y, z / 2, 0}, {x, 0, z}, {2 * y, 0}});
+    }
+  }
+  joinRings(geometry, segments, 0, static_cast<std::uint32_t>(segments) + 1);
+  addCap(geometry, segments, -0.5f);
+  addCap(geometry, segments, 0.5f);
+  return geometry;
+}
+
+Geometry geometryOf(const Mesh& mesh) {
+  if (mesh.normals.size() != mesh.positions.size() || mesh.indices.size() % 3 != 0)
+    throw std::invalid_argument(
+        "mesh: one normal per position and three indices per triangle, got " +
+        std::to_string(mesh.positions.size()) + " positions, " +
+        std::to_string(mesh.normals.size()) + " normals, " + std::to_string(mesh.indices.size()) +
+        " indices");
+  Geometry geometry;
+  geometry.vertices.reserve(mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Vec3f &p = mesh.positions[i], &n = mesh.normals[i];
+    geometry.vertices.push_back({{p.x(), p.y(), p.z(), 0}, {n.x(), n.y(), n.z()}, {0, 0}});
+  }
+  for (const std::uint32_t index : mesh.indices)
+    if (index >= mesh.positions.size())
+      throw std::invalid_argument("mesh: index " + std::to_string(index) + " of " +
+                                  std::to_string(mesh.positions.size()) + " vertices");
+  geometry.indices = mesh.indices;
+  return geometry;
+}
+
+}  // namespace render

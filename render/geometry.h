@@ -1,0 +1,30 @@
+// Triangles of the unit primitives, with what the shader needs to scale them and draw their edges.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/picture.h"
+
+namespace render {
+
+struct Vertex {
+  std::array<float, 4> position;  // w: +1 or -1 moves with the upper or lower end of a capsule
+  std::array<float, 3> normal;
+  std::array<float, 2> edge;  // reaches +-1 at an edge of the face; 0 where there is none
+};
+
+struct Geometry {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;  // triangles, counterclockwise from outside
+};
+
+Geometry unitBox();
+Geometry unitSphere(int segments);    // diameter 1; `segments` around, even
+Geometry unitCapsule(int segments);   // diameter 1, ends apart by Vertex::position[3]
+Geometry unitCylinder(int segments);  // diameter 1, length 1 along y
+// Throws std::invalid_argument when counts differ or an index is out of range.
+Geometry geometryOf(const Mesh& mesh);
+
+}  // namespace render

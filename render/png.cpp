@@ -1,0 +1,141 @@
+// stb's PNG code, compiled here so that libdeflate can take the place of its own compressor.
+#include "render/png.h"
+
+#include <fcntl.h>
+#include <libdeflate.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace {
+
+constexpr int kLevel = 1;  // half of stb's time is its own compressor; 1 is also smaller than that
+constexpr int kPaethFilter =
+    4;  // one filter for all rows: trying all five costs more than it saves
+
+// What stb calls instead of its own compressor; frees with STBIW_FREE.
+unsigned char* deflateForStb(unsigned char* data, int size, int* compressedSize, int) {
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
+  if (!compressor) return nullptr;
+  const auto bytes = static_cast<std::size_t>(size);
+  const std::size_t room = libdeflate_zlib_compress_bound(compressor.get(), bytes);
+  auto* const out = static_cast<unsigned char*>(std::malloc(room));
+  if (out == nullptr) return nullptr;
+  const std::size_t used = libdeflate_zlib_compress(compressor.get(), data, bytes, out, room);
+  *compressedSize = static_cast<int>(used);
+  return out;
+}
+
+}  // namespace
+
+#define STBIW_ZLIB_COMPRESS deflateForStb
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STBI_WRITE_NO_STDIO
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#include <stb_image.h>
+#include <stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace render {
+namespace {
+
+[[noreturn]] void fail(int error, const std::string& what, const std::filesystem::path& file) {
+  throw std::system_error(error, std::generic_category(), what + " " + file.string());
+}
+
+// Removes the temporary file unless it was renamed.
+struct Temporary {
+  std::filesystem::path file;
+  int descriptor = -1;
+  bool kept = false;
+  ~Temporary() {
+    if (descriptor >= 0) ::close(descriptor);
+    if (!kept) ::unlink(file.c_str());
+  }
+};
+
+std::filesystem::path temporaryName(const std::filesystem::path& file) {
+  std::filesystem::path part = file;
+  part += "." + std::to_string(::getpid()) + ".part";
+  return part;
+}
+
+void writeAll(int descriptor, const unsigned char* data, std::size_t size,
+              const std::filesystem::path& file) {
+  while (size > 0) {
+    const ssize_t written = ::write(descriptor, data, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail(written < 0 ? errno : EIO, "cannot write", file);
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+void writeAndRename(const unsigned char* data, std::size_t size,
+                    const std::filesystem::path& file) {
+  const std::filesystem::path part = temporaryName(file);
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail(errno, "cannot create", file);
+  Temporary temporary{part, descriptor};
+  writeAll(descriptor, data, size, file);
+  temporary.descriptor = -1;
+  if (::close(descriptor) != 0) fail(errno, "cannot write", file);
+  if (::rename(part.c_str(), file.c_str()) != 0) fail(errno, "cannot rename to", file);
+  temporary.kept = true;
+}
+
+}  // namespace
+
+void writePng(const Image& image, const std::filesystem::path& file) {
+  const auto size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  if (image.width < 1 || image.height < 1 || image.rgb.size() != 3 * size)
+    throw std::invalid_argument("image: " + std::to_string(image.rgb.size()) + " bytes for " +
+                                std::to_string(image.width) + " x " + std::to_string(image.height));
+  // Set once: stb reads it as a global, and it is the same for every thread.
+  static const bool forced = (stbi_write_force_png_filter = kPaethFilter, true);
+  (void)forced;
+  int length = 0;
+  const std::unique_ptr<unsigned char, void (*)(void*)> bytes(
+      stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3,
+                            &length),
+      std::free);
+  if (!bytes) fail(ENOMEM, "cannot compress", file);
+  writeAndRename(bytes.get(), static_cast<std::size_t>(length), file);
+}
+
+Image readPng(const std::filesystem::path& file) {
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(errno != 0 ? errno : ENOENT, "cannot open", file);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  Image image;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
+                            static_cast<int>(bytes.size()), &image.width, &image.height, nullptr,
+                            3),
+      std::free);
+  if (!pixels)
+    throw std::runtime_error("not a readable PNG: " + file.string() + " (" + stbi_failure_reason() +
+                             ")");
+  const auto size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  image.rgb.assign(pixels.get(), pixels.get() + 3 * size);
+  return image;
+}
+
+}  // namespace render

@@ -1,0 +1,230 @@
+// GLSL of the scene: bodies, ground, shadows. Only +, *, /, sqrt and min/max reach a colour, so
+// that every CPU gives the same bytes.
+#include "render/shaders.h"
+
+namespace render {
+
+#define FRAME_BLOCK                                                         \
+  "layout(std140) uniform Frame {\n"                                        \
+  "  mat4 toClip, toShadow;\n"                                              \
+  "  vec4 eye, towardLight, ground, groundFade, groundColor, background;\n" \
+  "  vec4 shadow, shadowOfGround, pixels;\n"                                \
+  "};\n"
+
+const char* const kBodyVertex = FRAME_BLOCK R"(
+layout(location = 0) in vec4 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 edge;
+layout(location = 3) in vec4 place;  // centre, half the distance of a capsule's ends
+layout(location = 4) in vec4 turn;   // quaternion
+layout(location = 5) in vec4 scale;  // w: marked
+layout(location = 6) in vec4 tint;   // linear
+out float gl_ClipDistance[1];
+#ifndef CASTER
+out vec3 vWorld, vNormal, vBody, vInShadow;
+out vec2 vEdge;
+flat out vec4 vTint;
+flat out float vMarked;
+#endif
+vec3 turned(vec3 p) { return p + 2.0 * cross(turn.xyz, cross(turn.xyz, p) + turn.w * p); }
+void main() {
+  vec3 body = position.xyz * scale.xyz + vec3(0.0, position.w * place.w, 0.0);
+  vec3 world = place.xyz + turned(body);
+  gl_ClipDistance[0] = ground.y > 0.0 ? world.y - ground.x : 1.0;
+#ifdef CASTER
+  vec3 inShadow = (toShadow * vec4(world, 1.0)).xyz;
+  gl_Position = vec4(2.0 * inShadow - 1.0, 1.0);
+#else
+  gl_Position = toClip * vec4(world, 1.0);
+  vWorld = world;
+  vNormal = turned(normalize(normal / max(abs(scale.xyz), vec3(1e-9))));
+  vInShadow = (toShadow * vec4(world + vNormal * shadow.y, 1.0)).xyz;
+  vBody = body;
+  vEdge = edge;
+  vTint = tint;
+  vMarked = scale.w;
+#endif
+}
+)";
+
+const char* const kCasterFragment = "void main() {}\n";
+
+// Key light with soft shadow, sky and floor as ambient, a little gloss, dark edges.
+const char* const kBodyFragment = FRAME_BLOCK R"(
+uniform sampler2DShadow shadowMap;
+in vec3 vWorld, vNormal, vBody, vInShadow;
+in vec2 vEdge;
+flat in vec4 vTint;
+flat in float vMarked;
+out vec4 color;
+
+// The loop's length is data: a software rasteriser skips it where no shadow can be seen.
+float lit(float facing) {
+  int side = int(shadow.w), count = facing > 0.0 ? side * side : 0;
+  float sum = 0.0;
+  for (int i = 0; i < count; ++i) {
+    vec2 tap = (vec2(i % side, i / side) - 0.5 * float(side - 1)) * shadow.z;
+    sum += textureLod(shadowMap, vec3(vInShadow.xy + tap, vInShadow.z), 0.0);
+  }
+  return count > 0 ? sum / float(count) : 1.0;
+}
+
+float edgeDarkness() {
+  vec2 width = max(fwidth(vEdge), vec2(1e-6));
+  vec2 away = max(vec2(1.0) - abs(vEdge), vec2(0.0)) / width;
+  vec2 line = clamp(vec2(pixels.z + 0.5) - away, 0.0, 1.0);
+  line *= clamp(1.5 - 6.0 * width, 0.0, 1.0);
+  return max(line.x, line.y);
+}
+
+float mark() {
+  vec3 side = clamp(vBody / max(fwidth(vBody), vec3(1e-9)), -1.0, 1.0);
+  return 0.5 + 0.5 * side.x * side.y * side.z;
+}
+
+vec3 encoded(vec3 linear) {  // sRGB by three square roots, within 0.003
+  vec3 a = sqrt(linear), b = sqrt(a), c = sqrt(b);
+  return clamp(0.585122381 * a + 0.783140355 * b - 0.368262736 * c, 0.0, 1.0);
+}
+
+void main() {
+  vec3 n = normalize(vNormal), toEye = normalize(eye.xyz - vWorld);
+  if (dot(n, toEye) < 0.0 && !gl_FrontFacing) n = -n;
+  float facing = dot(n, towardLight.xyz);
+  float key = max(facing, 0.0) * (shadow.x > 0.0 ? lit(facing) : 1.0);
+  float height = max(vWorld.y - ground.x, 0.0) / (0.12 * pixels.w);
+  float contact = ground.y > 0.0 ? (0.5 - 0.5 * n.y) / (1.0 + height * height) : 0.0;
+  float sky = 0.42 + 0.13 * n.y + 0.04 * n.x + 0.12 * max(dot(n, toEye), 0.0);
+  vec3 ambient = vec3(0.97, 0.99, 1.03) * sky * (1.0 - 0.55 * contact);
+  vec3 albedo = vTint.rgb * (1.0 - 0.45 * vMarked * mark());
+  float gloss = max(dot(n, normalize(toEye + towardLight.xyz)), 0.0);
+  gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss;
+  vec3 light = albedo * (ambient + vec3(0.61, 0.60, 0.58) * key) + 0.07 * gloss * key;
+  light *= 1.0 - 0.5 * edgeDarkness();
+  color = vec4(encoded(light) * vTint.a, vTint.a);
+}
+)";
+
+const char* const kFloorVertex = FRAME_BLOCK R"(
+out vec2 vAt;
+out vec2 vInShadow;
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  vAt = corner * groundFade.w;
+  vec3 world = vec3(groundFade.x + vAt.x, ground.x, groundFade.y + vAt.y);
+  vInShadow = (toShadow * vec4(world, 1.0)).xy;
+  gl_Position = toClip * vec4(world, 1.0);
+}
+)";
+
+// Colours here are mixed as they are encoded: the ground is a drawing, not a lit body.
+const char* const kFloorFragment = FRAME_BLOCK R"(
+uniform sampler2D sharpMask, wideMask;
+in vec2 vAt;
+in vec2 vInShadow;
+out vec4 color;
+
+// Coverage by lines through the whole numbers, `wide` half widths in pixels.
+float lines(vec2 cell, float wide) {
+  vec2 perPixel = max(fwidth(cell), vec2(1e-6));
+  vec2 away = abs(fract(cell + 0.5) - 0.5) / perPixel;
+  vec2 line = clamp(wide + 0.5 - away, 0.0, 1.0) * clamp(1.25 - 5.0 * perPixel, 0.0, 1.0);
+  return max(line.x, line.y);
+}
+
+void main() {
+  float away = sqrt(dot(vAt, vAt));
+  float gone = clamp((away - groundFade.z) / (groundFade.w - groundFade.z), 0.0, 1.0);
+  gone = gone * gone * (3.0 - 2.0 * gone);
+  vec2 cell = (vAt + groundFade.xy) / ground.z;
+  vec3 paint = groundColor.rgb;
+  paint *= 1.0 - 0.07 * lines(cell, ground.w);
+  paint *= 1.0 - 0.12 * lines(cell / 5.0, 1.3 * ground.w);
+  vec2 wide = textureLod(wideMask, vInShadow, 0.0).rg;
+  float sharp = textureLod(sharpMask, vInShadow, 0.0).r;
+  float far = clamp(shadowOfGround.w * wide.g / max(wide.r, 0.004), 0.0, 1.0);
+  float dark = 0.36 * mix(sharp, wide.r, far) + 0.16 * wide.r * (1.0 - far);
+  paint *= 1.0 - shadow.x * dark * vec3(1.0, 0.98, 0.95);
+  color = vec4(mix(paint, background.rgb, gone), 1.0);
+}
+)";
+
+const char* const kViewportVertex = R"(
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(4.0 * corner - 1.0, 0.0, 1.0);
+}
+)";
+
+// r: share of the texel in shadow, g: that times the distance of caster and ground along the light.
+const char* const kMaskFragment = FRAME_BLOCK R"(
+uniform sampler2D source;
+out vec4 color;
+void main() {
+  ivec2 at = 2 * ivec2(gl_FragCoord.xy);
+  vec2 uv = 0.5 * gl_FragCoord.xy * 4.0 * shadow.z;
+  float ground = dot(shadowOfGround.xyz, vec3(uv, 1.0));
+  vec2 sum = vec2(0.0);
+  for (int i = 0; i < 4; ++i) {
+    float depth = texelFetch(source, at + ivec2(i & 1, i >> 1), 0).r;
+    sum += depth < 1.0 ? vec2(1.0, clamp(ground - depth, 0.0, 1.0)) : vec2(0.0);
+  }
+  vec2 middle = abs(uv - 0.5);  // nothing may stick to the border, it is what lies beyond
+  float inside = clamp((0.5 - max(middle.x, middle.y)) * 40.0 - 0.2, 0.0, 1.0);
+  color = vec4(0.25 * inside * sum, 0.0, 1.0);
+}
+)";
+
+const char* const kSharpFragment = R"(
+uniform sampler2D source;
+out vec4 color;
+void main() {
+  vec2 texel = 1.0 / vec2(textureSize(source, 0)), at = gl_FragCoord.xy * texel;
+  vec2 sum = vec2(0.0);
+  for (int i = 0; i < 4; ++i)
+    sum += textureLod(source, at + (vec2(i & 1, i >> 1) * 1.6 - 0.8) * texel, 0.0).rg;
+  color = vec4(0.25 * sum, 0.0, 1.0);
+}
+)";
+
+const char* const kWideFragment = R"(
+uniform sampler2D source;
+out vec4 color;
+void main() {
+  vec2 texel = 1.0 / vec2(textureSize(source, 0)), at = 4.0 * gl_FragCoord.xy * texel;
+  vec2 sum = vec2(0.0);
+  for (int i = 0; i < 4; ++i)
+    sum += textureLod(source, at + (vec2(i & 1, i >> 1) * 2.0 - 1.0) * texel, 0.0).rg;
+  color = vec4(0.25 * sum, 0.0, 1.0);
+}
+)";
+
+// Nine taps, sigma of two texels.
+const char* const kBlurFragment = R"(
+uniform sampler2D source;
+uniform vec2 direction;
+out vec4 color;
+void main() {
+  const float weight[5] = float[](0.2041636, 0.1801738, 0.1238315, 0.0662822, 0.0276306);
+  vec2 texel = 1.0 / vec2(textureSize(source, 0)), at = gl_FragCoord.xy * texel;
+  vec2 sum = weight[0] * textureLod(source, at, 0.0).rg;
+  for (int i = 1; i < 5; ++i) {
+    vec2 step = float(i) * direction * texel;
+    sum += weight[i] * textureLod(source, at + step, 0.0).rg;
+    sum += weight[i] * textureLod(source, at - step, 0.0).rg;
+  }
+  color = vec4(sum, 0.0, 1.0);
+}
+)";
+
+const char* const kResolveFragment = R"(
+uniform sampler2DMS source;
+out vec4 color;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  color = 0.25 * (texelFetch(source, at, 0) + texelFetch(source, at, 1) +
+                  texelFetch(source, at, 2) + texelFetch(source, at, 3));
+}
+)";
+
+}  // namespace render

@@ -1,0 +1,86 @@
+// Draws the casters from the light and filters what they cover.
+#include "render/shadow.h"
+
+#include "render/shaders.h"
+
+namespace render {
+
+Shadow::Shadow(int size) : size_(size) {
+  map_ = makeTexture(GL_DEPTH_COMPONENT16, size, size, GL_NEAREST);
+  glGenFramebuffers(1, &mapFramebuffer_);
+  glBindFramebuffer(GL_FRAMEBUFFER, mapFramebuffer_);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, map_, 0);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+  requireCompleteFramebuffer("the shadow map");
+  glGenSamplers(1, &compare_);
+  const auto set = [this](GLenum name, GLenum value) {
+    glSamplerParameteri(compare_, name, static_cast<GLint>(value));
+  };
+  set(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  set(GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  set(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  set(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  set(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  set(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  array_ = makeVertexArray();
+  maskProgram_ = makeProgram(kViewportVertex, kMaskFragment);
+  sharpProgram_ = makeProgram(kViewportVertex, kSharpFragment);
+  wideProgram_ = makeProgram(kViewportVertex, kWideFragment);
+  acrossProgram_ = makeProgram(kViewportVertex, kBlurFragment);
+  glUniform2f(glGetUniformLocation(acrossProgram_, "direction"), 1, 0);
+  upProgram_ = makeProgram(kViewportVertex, kBlurFragment);
+  glUniform2f(glGetUniformLocation(upProgram_, "direction"), 0, 1);
+  mask_ = makeLayer(size / 2);
+  sharp_ = makeLayer(size / 2);
+  wide_ = makeLayer(size / 8);
+  wideAcross_ = makeLayer(size / 8);
+}
+
+Shadow::Layer Shadow::makeLayer(int size) {
+  Layer layer;
+  layer.size = size;
+  layer.texture = makeTexture(GL_RG8, size, size, GL_LINEAR);
+  layer.framebuffer = makeFramebuffer(layer.texture, "the shadow on the ground");
+  return layer;
+}
+
+void Shadow::filter(GLuint program, GLuint source, const Layer& target) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  glViewport(0, 0, target.size, target.size);
+  glUseProgram(program);
+  bindTexture(kSourceUnit, GL_TEXTURE_2D, source);
+  drawWholeViewport();
+}
+
+void Shadow::drawMasks() const {
+  glBindVertexArray(array_);
+  filter(maskProgram_, map_, mask_);
+  filter(sharpProgram_, mask_.texture, sharp_);
+  filter(wideProgram_, mask_.texture, wide_);
+  filter(acrossProgram_, wide_.texture, wideAcross_);
+  filter(upProgram_, wideAcross_.texture, wide_);
+}
+
+void Shadow::draw(const Bodies& bodies, const Frame& frame) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, mapFramebuffer_);
+  glViewport(0, 0, size_, size_);
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_DEPTH_CLAMP);
+  glEnable(GL_CLIP_DISTANCE0);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5f, 2.0f);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  bodies.drawCasters();
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_CLIP_DISTANCE0);
+  glDisable(GL_DEPTH_CLAMP);
+  glDisable(GL_DEPTH_TEST);
+  if (frame.groundDrawn) drawMasks();
+  bindTexture(kShadowUnit, GL_TEXTURE_2D, map_);
+  glBindSampler(kShadowUnit, compare_);
+  bindTexture(kSharpUnit, GL_TEXTURE_2D, sharp_.texture);
+  bindTexture(kWideUnit, GL_TEXTURE_2D, wide_.texture);
+}
+
+}  // namespace render
