@@ -1,0 +1,23 @@
+// The trajectory and metrics tables.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenes/simulation.h"
+
+namespace app {
+
+struct StageSeconds {  // spent on one frame
+  double simulate = 0, view = 0, draw = 0, write = 0;
+};
+
+std::string trajectoryHeader();
+// One row per body of the present frame, the world itself left out. Numbers carry 17 digits.
+std::string trajectoryRows(const scenes::Simulation& simulation);
+
+// A row per frame. A constraint kind that is absent in a frame has the error 0 there.
+std::string metricsTable(const std::vector<scenes::FrameMetrics>& metrics,
+                         const std::vector<StageSeconds>& seconds);
+
+}  // namespace app

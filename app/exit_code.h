@@ -1,0 +1,22 @@
+// How a command ends, and the error that says the machine, not the user, stood in the way.
+#pragma once
+
+#include <stdexcept>
+
+namespace app {
+
+enum class ExitCode {
+  kDone = 0,
+  kBug = 1,
+  kBadInput = 2,     // arguments or scene
+  kCheckFailed = 3,  // an expectation, a golden image, or numbers that stopped being finite
+  kEnvironment = 4,  // no disk space, no permission, no ffmpeg, no OpenGL
+  kInterrupted = 130,
+};
+
+class EnvironmentError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace app

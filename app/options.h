@@ -1,0 +1,40 @@
+// The options that commands share.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/exit_code.h"
+#include "app/progress.h"
+#include "scenes/scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace app {
+
+using Action = std::function<ExitCode()>;  // what the chosen command does
+
+struct CommonOptions {
+  std::string scene;
+  std::string folder;  // -o; empty: out/NAME
+  int threads = 0;     // 0: the cores there are
+  std::vector<std::string> overrides;
+  std::string progress;
+  bool quiet = false;
+  bool hash = false;
+
+  scenes::Scene readScene() const;
+  std::filesystem::path outputFolder(const std::string& name) const;
+  int threadCount() const;
+  ProgressMode progressMode() const;
+};
+
+void addScene(CLI::App& command, CommonOptions& options);
+void addCommon(CLI::App& command, CommonOptions& options);  // -o --threads --set --progress --quiet
+void addHash(CLI::App& command, CommonOptions& options);
+
+}  // namespace app

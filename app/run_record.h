@@ -1,0 +1,43 @@
+// run.json: what made the files of an output folder, and with which result.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+#include "scenes/simulation.h"
+
+namespace app {
+
+using Json = nlohmann::ordered_json;
+
+struct RunRecord {
+  // What the states depend on, and what the frames depend on beside them (null: nothing was drawn).
+  Json program, scene, settings, picture;
+
+  std::vector<std::string> stateHashes;  // per frame; empty text: not known
+  Json expectations = Json::array();     // verdicts, once the whole run was simulated
+  Json seconds = Json::object();         // per stage; runs of the same inputs add up
+  std::string video;                     // file name in the folder, empty: none
+  bool finished = false;                 // all that was asked for is written
+
+  bool sameStates(const RunRecord& other) const;
+  bool sameFrames(const RunRecord& other) const;
+};
+
+RunRecord makeRecord(const scenes::Scene& scene);
+Json describePicture(const render::RendererOptions& options, const render::Renderer::Info& info,
+                     bool hud, const scenes::Overlays& overlays);
+Json describeVerdicts(const std::vector<scenes::Checker::Verdict>& verdicts);
+std::string hexadecimal(std::uint64_t hash);
+
+// Absent or unreadable: nullopt, and the folder is treated as new.
+std::optional<RunRecord> readRecord(const std::filesystem::path& folder);
+void writeRecord(const RunRecord& record, const std::filesystem::path& folder);
+
+const char* qualityName(render::Quality quality);
+
+}  // namespace app
