@@ -46,6 +46,7 @@ struct Bodies {
   std::vector<Vec3> inertia;          // principal, body frame
   std::vector<double> mass;
   std::vector<Motion> motion;
+  std::vector<Vec3> shift;            // sum of the displacements Delta x of this substep [m]
   std::vector<Vec3> freeTurn;         // log of the predicted rotation of this substep, world frame [rad]
   std::vector<Shape> shape;
   std::vector<Friction> friction;

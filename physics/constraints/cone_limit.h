@@ -35,7 +35,6 @@ struct ConeLimit {
   double angle = 0.5;
 
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
-  void bound(double dt, Eigen::Matrix<double, 1, 1>& total) const;
 };
 
 }  // namespace physics

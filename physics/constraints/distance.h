@@ -37,7 +37,6 @@ struct Distance {
   bool rope = false;
 
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
-  void bound(double dt, Eigen::Matrix<double, 1, 1>& total) const;
 };
 
 }  // namespace physics

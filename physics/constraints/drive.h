@@ -39,7 +39,6 @@ struct Drive {
 
   Vec3 error(std::span<const Pose> pose) const;  // dtheta, world frame [rad]
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
-  void bound(double dt, Vec3& total) const;
 };
 
 }  // namespace physics

@@ -33,7 +33,6 @@ struct Motor {
   double speed = 1, maxTorque = std::numeric_limits<double>::infinity();
 
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
-  void bound(double dt, Eigen::Matrix<double, 1, 1>& total) const;
 };
 
 }  // namespace physics

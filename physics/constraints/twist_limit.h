@@ -38,7 +38,6 @@ struct TwistLimit {
 
   double twist(const Configuration& x) const;  // rad
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
-  void bound(double dt, Eigen::Matrix<double, 1, 1>& total) const;
 };
 
 }  // namespace physics

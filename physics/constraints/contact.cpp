@@ -1,0 +1,94 @@
+// Contact: keeping manifolds over steps, and the geometry of a point.
+#include "physics/constraints/contact.h"
+
+#include <cmath>
+#include <variant>
+
+namespace physics {
+namespace {
+
+bool hasFaces(const Shape& shape) {
+  return std::holds_alternative<Box>(shape) || std::holds_alternative<Convex>(shape) ||
+         std::holds_alternative<Plane>(shape);
+}
+
+bool isBall(const Shape& shape) {
+  return std::holds_alternative<Sphere>(shape) || std::holds_alternative<PointShape>(shape);
+}
+
+double geometricMean(double a, double b) { return std::sqrt(a * b); }
+
+void keepState(const ContactPair& old, ContactPair& fresh) {
+  for (int k = 0; k < fresh.count; ++k) {
+    for (int m = 0; m < old.count; ++m) {
+      if (old.points[m].shape.feature != fresh.points[k].shape.feature) continue;
+      const ContactPoint shape = fresh.points[k].shape;
+      fresh.points[k] = old.points[m];
+      fresh.points[k].shape = shape;
+      break;
+    }
+  }
+}
+
+ContactPair fromManifold(const Manifold& manifold, const Bodies& bodies) {
+  ContactPair pair;
+  pair.a = manifold.a;
+  pair.b = manifold.b;
+  const Shape &a = bodies.shape[pair.a], &b = bodies.shape[pair.b];
+  pair.radial = isBall(a) && isBall(b);
+  pair.carried = hasFaces(b);
+  pair.normal =
+      pair.carried ? manifold.normal : Vec3(bodies.pose[pair.b].q * manifold.normal);
+  const Friction &fa = bodies.friction[pair.a], &fb = bodies.friction[pair.b];
+  pair.friction.staticCoefficient = geometricMean(fa.staticCoefficient, fb.staticCoefficient);
+  pair.friction.dynamicCoefficient = geometricMean(fa.dynamicCoefficient, fb.dynamicCoefficient);
+  pair.count = manifold.count;
+  for (int k = 0; k < manifold.count; ++k) pair.points[k].shape = manifold.points[k];
+  return pair;
+}
+
+}  // namespace
+
+void update(Contacts& contacts, std::span<const Manifold> manifolds, const Bodies& bodies) {
+  std::swap(contacts.pairs, contacts.previous);
+  contacts.pairs.clear();
+  std::size_t old = 0;
+  for (const Manifold& manifold : manifolds) {
+    ContactPair fresh = fromManifold(manifold, bodies);
+    const auto before = [&](const ContactPair& p) {
+      return p.a != fresh.a ? p.a < fresh.a : p.b < fresh.b;
+    };
+    while (old < contacts.previous.size() && before(contacts.previous[old])) ++old;
+    if (old < contacts.previous.size()) {
+      const ContactPair& kept = contacts.previous[old];
+      if (kept.a == fresh.a && kept.b == fresh.b) keepState(kept, fresh);
+    }
+    contacts.pairs.push_back(fresh);
+  }
+}
+
+Vec3 normalOf(const ContactPair& pair, std::span<const Pose> pose) {
+  const Pose &a = pose[pair.a], &b = pose[pair.b];
+  if (pair.carried) return b.q * pair.normal;
+  if (pair.radial) {
+    const Vec3 between = a.x - b.x;
+    const double distance = between.norm();
+    if (distance > 1e-9) return between / distance;
+  }
+  return pair.normal;
+}
+
+Vec3 pointOf(const ContactPair& pair, int k, std::span<const Pose> pose) {
+  const ContactPoint& shape = pair.points[k].shape;
+  const Pose& a = pose[pair.a];
+  return a.x + a.q * shape.coreA - shape.radiusA * normalOf(pair, pose);
+}
+
+double gapOf(const ContactPair& pair, int k, std::span<const Pose> pose) {
+  const ContactPoint& shape = pair.points[k].shape;
+  const Pose& b = pose[pair.b];
+  const Vec3 onB = b.x + b.q * shape.coreB;
+  return (pointOf(pair, k, pose) - onB).dot(normalOf(pair, pose)) - shape.radiusB;
+}
+
+}  // namespace physics

@@ -1,0 +1,125 @@
+// Exponential, logarithm and their polynomials.
+#include "physics/rotation.h"
+
+#include <cmath>
+
+namespace physics {
+namespace {
+
+// Taylor sums in Horner form; with |r| <= pi/4 the first term left out is below 1e-19.
+double sineReduced(double r) {
+  const double t = r * r;
+  double sum = -1.0 / 121645100408832000.0;
+  sum = sum * t + 1.0 / 355687428096000.0;
+  sum = sum * t - 1.0 / 1307674368000.0;
+  sum = sum * t + 1.0 / 6227020800.0;
+  sum = sum * t - 1.0 / 39916800.0;
+  sum = sum * t + 1.0 / 362880.0;
+  sum = sum * t - 1.0 / 5040.0;
+  sum = sum * t + 1.0 / 120.0;
+  sum = sum * t - 1.0 / 6.0;
+  return r + r * t * sum;
+}
+
+double cosineReduced(double r) {
+  const double t = r * r;
+  double sum = 1.0 / 2432902008176640000.0;
+  sum = sum * t - 1.0 / 6402373705728000.0;
+  sum = sum * t + 1.0 / 20922789888000.0;
+  sum = sum * t - 1.0 / 87178291200.0;
+  sum = sum * t + 1.0 / 479001600.0;
+  sum = sum * t - 1.0 / 3628800.0;
+  sum = sum * t + 1.0 / 40320.0;
+  sum = sum * t - 1.0 / 720.0;
+  sum = sum * t + 1.0 / 24.0;
+  return 1.0 - 0.5 * t + t * t * sum;
+}
+
+// atan for |t| <= tan(pi/16) < 0.2: odd series to t^25.
+double arcTangentSmall(double t) {
+  const double s = t * t;
+  double sum = 0;
+  for (int n = 25; n >= 3; n -= 2) sum = s * (((n / 2) % 2 == 1 ? -1.0 : 1.0) / n + sum);
+  return t + t * sum;
+}
+
+// atan for 0 <= t <= 1, by two halvings: atan t = 2 atan(t / (1 + sqrt(1 + t^2))).
+double arcTangentUnit(double t) {
+  const double half = t / (1 + std::sqrt(1 + t * t));
+  const double quarter = half / (1 + std::sqrt(1 + half * half));
+  return 4 * arcTangentSmall(quarter);
+}
+
+constexpr double kSmallAngleSquared = 1e-2;  // below: five terms are exact to 1e-17
+
+}  // namespace
+
+SineCosine sineCosine(double angle) {
+  constexpr double kHalfPiHigh = 1.57079632679489655800e+00, kHalfPiLow = 6.12323399573676603587e-17;
+  const double k = std::nearbyint(angle * (2 / kPi));
+  const double r = (angle - k * kHalfPiHigh) - k * kHalfPiLow;
+  const double s = sineReduced(r), c = cosineReduced(r);
+  switch (static_cast<long long>(k) & 3) {
+    case 0: return {s, c};
+    case 1: return {c, -s};
+    case 2: return {-s, -c};
+    default: return {-c, s};
+  }
+}
+
+double arcTangent(double y, double x) {
+  const double ay = std::abs(y), ax = std::abs(x);
+  if (ax == 0 && ay == 0) return 0;
+  double angle = ay <= ax ? arcTangentUnit(ay / ax) : kPi / 2 - arcTangentUnit(ax / ay);
+  if (x < 0) angle = kPi - angle;
+  return y < 0 ? -angle : angle;
+}
+
+Quat exponential(const Vec3& theta) {
+  const double squared = theta.squaredNorm();
+  double cosine, halfSinc;  // cos(|theta|/2), sin(|theta|/2)/|theta|
+  if (squared < kSmallAngleSquared) {
+    const double t = 0.25 * squared;
+    cosine = 1 - t / 2 * (1 - t / 12 * (1 - t / 30 * (1 - t / 56 * (1 - t / 90))));
+    halfSinc = 0.5 * (1 - t / 6 * (1 - t / 20 * (1 - t / 42 * (1 - t / 72))));
+  } else {
+    const double angle = std::sqrt(squared);
+    const SineCosine half = sineCosine(0.5 * angle);
+    cosine = half.cosine;
+    halfSinc = half.sine / angle;
+  }
+  return Quat(cosine, halfSinc * theta.x(), halfSinc * theta.y(), halfSinc * theta.z());
+}
+
+Vec3 logarithm(const Quat& q) {
+  const double sign = q.w() < 0 ? -1 : 1;
+  const double w = sign * q.w();
+  const Vec3 v = sign * q.vec();
+  const double squared = v.squaredNorm();
+  if (squared < 0.25 * kSmallAngleSquared) {  // asin series; w = sqrt(1 - |v|^2) for a unit quaternion
+    const double factor =
+        2 * (1 + squared / 6 *
+                     (1 + squared * 9 / 20 *
+                              (1 + squared * 25 / 42 * (1 + squared * 49 / 72 * (1 + squared * 81 / 110)))));
+    return factor * v;
+  }
+  const double sine = std::sqrt(squared);
+  return (2 * arcTangent(sine, w) / sine) * v;
+}
+
+Vec3 anyNormalTo(const Vec3& n) {
+  int smallest = 0;
+  n.cwiseAbs().minCoeff(&smallest);
+  return n.cross(Vec3::Unit(smallest)).normalized();
+}
+
+AngleBetween angleBetween(const Vec3& ni, const Vec3& nj) {
+  const Vec3 cross = ni.cross(nj);
+  const double sine = cross.norm();
+  AngleBetween result;
+  result.phi = arcTangent(sine, ni.dot(nj));
+  result.w = sine > 1e-12 ? Vec3(cross / sine) : anyNormalTo(ni);
+  return result;
+}
+
+}  // namespace physics

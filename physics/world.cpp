@@ -1,0 +1,100 @@
+// The step: Algorithm 1 of "Displacement Based Dynamics", with the corrections listed in paper.md.
+// Numbers in brackets are the paper's equations.
+#include "physics/world.h"
+
+#include <cmath>
+
+#include "physics/effects/restitution.h"
+#include "physics/methods/nonlinear_gauss_seidel.h"
+#include "physics/world_impl.h"
+
+namespace physics {
+namespace {
+
+constexpr int kMostLooks = 4;  // how often contacts are looked for anew within one substep
+
+// Manifolds for the motion from the start of the substep to `target`.
+void findContacts(World::Impl& w, std::span<const Pose> target) {
+  update(w.contacts, w.collider.find(w.bodies.start, target, w.settings.contact->margin), w.bodies);
+}
+
+bool contactsOutdated(const World::Impl& w) {
+  return w.settings.contact && w.collider.outdated(w.bodies.start, w.bodies.pose);
+}
+
+// Where the bodies would be at the end of the whole step, so that one look serves all its substeps.
+void findContactsAhead(World::Impl& w, double remaining) {
+  w.ahead.resize(w.bodies.pose.size());
+  for (int i = 0; i < w.bodies.size(); ++i) {
+    w.ahead[i] = w.bodies.pose[i];
+    displace(w.ahead[i], remaining * w.bodies.velocity[i].v, remaining * w.bodies.velocity[i].w);
+  }
+  findContacts(w, w.ahead);
+}
+
+void solveConstraints(World::Impl& w, double h, StepReport& report) {
+  nonlinearGaussSeidel(w, h, report);
+  // A body that was hit may have left the bounds in which contacts were looked for: look where it went.
+  for (int look = 1; look < kMostLooks && !report.notFinite && contactsOutdated(w); ++look) {
+    findContacts(w, w.bodies.pose);
+    for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
+    nonlinearGaussSeidel(w, h, report);
+  }
+}
+
+void checkFinite(const World::Impl& w, StepReport& report) {
+  for (int i = 0; i < w.bodies.size() && !report.notFinite; ++i) {
+    const Pose& pose = w.bodies.pose[i];
+    const Velocity& velocity = w.bodies.velocity[i];
+    if (!std::isfinite(pose.x.sum() + pose.q.coeffs().sum() + velocity.v.sum() + velocity.w.sum())) {
+      report.notFinite = {report.substeps, i, ""};
+    }
+  }
+}
+
+void finish(World::Impl& w, double h) {
+  finishVelocities(w.bodies, h);
+  if (w.settings.contact && w.settings.contact->restitution > 0) {
+    const double threshold = w.settings.gravity ? 2 * h * w.settings.gravity->norm() : 0;
+    restitute(w.contacts, w.bodies, w.settings.contact->restitution, threshold);
+  }
+}
+
+void restore(World::Impl& w) {
+  w.bodies.pose = w.last.pose;
+  w.bodies.velocity = w.last.velocity;
+  w.contacts.pairs.clear();
+  forEachKind(w.kinds, [](auto& kind) {
+    for (auto& total : kind.set.total) total.setZero();
+  });
+}
+
+}  // namespace
+
+StepReport World::step() {
+  Impl& w = *impl_;
+  const double h = w.substepLength();
+  StepReport report;
+  w.last.pose = w.bodies.pose;
+  w.last.velocity = w.bodies.velocity;
+  for (int k = 0; k < w.settings.substeps && !report.notFinite; ++k) {
+    moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)
+    refreshInertia(w.bodies);
+    checkFinite(w, report);
+    if (report.notFinite) break;
+    if (w.settings.contact && (k == 0 || contactsOutdated(w))) {
+      findContactsAhead(w, w.settings.dt - (k + 1) * h);
+    }
+    prepareConstraints(w, h);       // multipliers of the last substep, gaps and anchors at X^t
+    solveConstraints(w, h, report); // Delta X (52),(53)
+    finish(w, h);                   // (43)-(46)
+    checkFinite(w, report);
+    ++report.substeps;
+  }
+  if (report.notFinite) restore(w);
+  w.loads.assign(w.loads.size(), Load{});
+  ++w.stepCount;
+  return report;
+}
+
+}  // namespace physics

@@ -1,0 +1,30 @@
+// What a World holds. Private to physics: the step, the builder and the reports share it.
+#pragma once
+
+#include "physics/collision/collider.h"
+#include "physics/constraints/contact.h"
+#include "physics/effects/free_motion.h"
+#include "physics/kinds.h"
+#include "physics/world.h"
+
+namespace physics {
+
+struct World::Impl {
+  Settings settings;
+  std::int64_t stepCount = 0;
+  Bodies bodies;
+  std::vector<Load> loads;  // for the next step, cleared after it
+  Kinds kinds;
+  Collider collider;
+  Contacts contacts;
+  std::vector<Pose> ahead;  // scratch: poses at the end of the step, as far as now is known
+
+  struct Snapshot {  // the last good state
+    std::vector<Pose> pose;
+    std::vector<Velocity> velocity;
+  } last;
+
+  double substepLength() const { return settings.dt / settings.substeps; }
+};
+
+}  // namespace physics

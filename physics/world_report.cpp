@@ -1,0 +1,141 @@
+// What a World tells about itself between steps.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "physics/world_impl.h"
+
+namespace physics {
+namespace {
+
+template <class C>
+double sizeOfError(const C& item, const World::Impl& w) {
+  Row<C::kBodies, C::kRows> row;
+  item.evaluate({w.bodies.pose, w.bodies.start, w.substepLength()}, row);
+  const double size = row.c.norm();
+  if (std::isfinite(row.high) && row.high <= 0) return std::max(row.c[0], 0.0);   // c <= 0 holds
+  if (std::isfinite(row.low) && row.low >= 0) return std::max(-row.c[0], 0.0);  // c >= 0 holds
+  return size;
+}
+
+// Springs, drives and motors are forces: they have no error.
+template <class K>
+constexpr bool isForce() {
+  return std::is_same_v<typename K::Item, Spring> || std::is_same_v<typename K::Item, Drive> ||
+         std::is_same_v<typename K::Item, Motor>;
+}
+
+}  // namespace
+
+const Settings& World::settings() const { return impl_->settings; }
+std::int64_t World::stepCount() const { return impl_->stepCount; }
+const Bodies& World::bodies() const { return impl_->bodies; }
+int World::bodyCount() const { return impl_->bodies.size(); }
+
+void World::setVelocity(BodyId body, const Velocity& velocity) {
+  require(body > 0 && body < bodyCount(), "no such body");
+  impl_->bodies.velocity[body] = velocity;
+}
+
+void World::applyForce(BodyId body, const Vec3& force, const Vec3& torque) {
+  require(body > 0 && body < bodyCount(), "no such body");
+  impl_->loads[body].force += force;
+  impl_->loads[body].torque += torque;
+}
+
+void World::setDriveTarget(int drive, const Quat& target) {
+  auto& items = std::get<Kind<DriveDef, Drive>>(impl_->kinds).set.items;
+  require(drive >= 0 && drive < static_cast<int>(items.size()), "no such drive");
+  items[drive].target = target.normalized();
+}
+
+Vec3 World::driveTorque(int drive) const {
+  const auto& set = std::get<Kind<DriveDef, Drive>>(impl_->kinds).set;
+  require(drive >= 0 && drive < static_cast<int>(set.items.size()), "no such drive");
+  const double h = impl_->substepLength();
+  return set.total[drive] / (h * h);
+}
+
+std::vector<KindError> World::constraintErrors() const {
+  std::vector<KindError> errors;
+  forEachKind(impl_->kinds, [&](const auto& kind) {
+    using K = std::decay_t<decltype(kind)>;
+    if (isForce<K>() || kind.set.items.empty()) return;
+    KindError error{K::kWord, K::Item::kUnit, 0, static_cast<int>(kind.set.items.size()), 0};
+    for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
+      const double size = sizeOfError(kind.set.items[k], *impl_);
+      if (!(size <= error.largest)) error.largest = size, error.worst = static_cast<int>(k);
+    }
+    errors.push_back(error);
+  });
+  return errors;
+}
+
+std::vector<ContactReport> World::contacts() const {
+  std::vector<ContactReport> reports;
+  const auto& pose = impl_->bodies.pose;
+  const double h = impl_->substepLength();
+  for (const ContactPair& pair : impl_->contacts.pairs) {
+    const Vec3 n = normalOf(pair, pose);
+    for (int k = 0; k < pair.count; ++k) {
+      const ContactPointState& p = pair.points[k];
+      const double gap = gapOf(pair, k, pose);
+      if (gap > impl_->settings.contact->margin && p.normalTotal == 0) continue;
+      const Vec3 impulse = (p.normalTotal * n + p.frictionTotal) / h;
+      reports.push_back({pair.a, pair.b, pointOf(pair, k, pose), n, gap, impulse});
+    }
+  }
+  return reports;
+}
+
+std::vector<JointReport> World::joints() const {
+  std::vector<JointReport> reports;
+  const auto& pose = impl_->bodies.pose;
+  forEachKind(impl_->kinds, [&](const auto& kind) {
+    using K = std::decay_t<decltype(kind)>;
+    for (const auto& item : kind.set.items) {
+      const Pose &a = pose[item.bodies[0]], &b = pose[item.bodies[1]];
+      JointReport joint{K::kWord, item.bodies[0], item.bodies[1], a.x, b.x, Vec3::Zero(), 0};
+      if constexpr (requires { item.anchors; }) {
+        joint.pointA = a.x + a.q * item.anchors[0];
+        joint.pointB = b.x + b.q * item.anchors[1];
+      }
+      if constexpr (requires { item.axisI; }) joint.axis = a.q * item.axisI;
+      if constexpr (requires { item.axes; }) joint.axis = a.q * item.axes[0];
+      if constexpr (!isForce<K>()) joint.error = sizeOfError(item, *impl_);
+      reports.push_back(joint);
+    }
+  });
+  return reports;
+}
+
+double World::largestOverlap() const {
+  double largest = 0;
+  for (const ContactPair& pair : impl_->contacts.pairs) {
+    for (int k = 0; k < pair.count; ++k) {
+      largest = std::max(largest, -gapOf(pair, k, impl_->bodies.pose));
+    }
+  }
+  return largest;
+}
+
+int World::contactCount() const {
+  int count = 0;
+  for (const ContactPair& pair : impl_->contacts.pairs) {
+    for (int k = 0; k < pair.count; ++k) count += pair.points[k].normalTotal > 0;
+  }
+  return count;
+}
+
+double World::springEnergy() const {
+  double energy = 0;
+  for (const Spring& s : std::get<Kind<SpringDef, Spring>>(impl_->kinds).set.items) {
+    energy += s.energy(impl_->bodies.pose);
+  }
+  for (const Drive& d : std::get<Kind<DriveDef, Drive>>(impl_->kinds).set.items) {
+    energy += 0.5 * d.stiffness * d.error(impl_->bodies.pose).squaredNorm();
+  }
+  return energy;
+}
+
+}  // namespace physics
