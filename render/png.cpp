@@ -72,7 +72,8 @@ struct Temporary {
 
 std::filesystem::path temporaryName(const std::filesystem::path& file) {
   std::filesystem::path part = file;
-  part += "." + std::to_string(::getpid()) + ".part";
+  part += "." + std::to_string(::getpid());
+  part += ".part";
   return part;
 }
 

@@ -94,7 +94,8 @@ void main() {
   float key = max(facing, 0.0) * (shadow.x > 0.0 ? lit(facing) : 1.0);
   float height = max(vWorld.y - ground.x, 0.0) / (0.12 * pixels.w);
   float contact = ground.y > 0.0 ? (0.5 - 0.5 * n.y) / (1.0 + height * height) : 0.0;
-  float sky = 0.42 + 0.13 * n.y + 0.04 * n.x + 0.12 * max(dot(n, toEye), 0.0);
+  float aside = n.x * towardLight.z - n.z * towardLight.x;  // faces that share the key light differ
+  float sky = 0.44 + 0.13 * n.y + 0.13 * aside + 0.12 * max(dot(n, toEye), 0.0);
   vec3 ambient = vec3(0.97, 0.99, 1.03) * sky * (1.0 - 0.55 * contact);
   vec3 albedo = vTint.rgb * (1.0 - 0.45 * vMarked * mark());
   float gloss = max(dot(n, normalize(toEye + towardLight.xyz)), 0.0);
@@ -128,7 +129,7 @@ out vec4 color;
 float lines(vec2 cell, float wide) {
   vec2 perPixel = max(fwidth(cell), vec2(1e-6));
   vec2 away = abs(fract(cell + 0.5) - 0.5) / perPixel;
-  vec2 line = clamp(wide + 0.5 - away, 0.0, 1.0) * clamp(1.25 - 5.0 * perPixel, 0.0, 1.0);
+  vec2 line = clamp(wide + 0.5 - away, 0.0, 1.0) * clamp(1.4 - 8.0 * perPixel, 0.0, 1.0);
   return max(line.x, line.y);
 }
 
