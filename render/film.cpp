@@ -1,16 +1,16 @@
 // Checks the frames, pipes them to ffmpeg, counts what came out.
 #include "render/film.h"
 
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
 #include "render/child.h"
+#include "render/unfinished.h"
 
 namespace render {
 namespace {
@@ -25,12 +25,12 @@ struct Size {
 // Width and height from a PNG's head: 8 bytes of signature, 8 of the chunk's head, then the two.
 Size sizeOfPng(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FilmError("film: cannot read the frame " + file.string());
+  if (!stream) throw FilmError(fmt::format("film: cannot read the frame {}", file.string()));
   std::array<unsigned char, 24> head{};
   stream.read(reinterpret_cast<char*>(head.data()), head.size());
   constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   if (!stream || !std::equal(kSignature.begin(), kSignature.end(), head.begin()))
-    throw FilmError("film: not a PNG: " + file.string());
+    throw FilmError(fmt::format("film: not a PNG: {}", file.string()));
   const auto number = [&head](std::size_t at) {
     return head[at] << 24 | head[at + 1] << 16 | head[at + 2] << 8 | head[at + 3];
   };
@@ -42,9 +42,8 @@ Size checkFrames(const std::vector<fs::path>& frames) {
   const Size size = sizeOfPng(frames.front());
   for (const fs::path& frame : frames)
     if (const Size other = sizeOfPng(frame); other != size)
-      throw FilmError("film: " + frame.string() + " is " + std::to_string(other.width) + " x " +
-                      std::to_string(other.height) + ", the frames before it " +
-                      std::to_string(size.width) + " x " + std::to_string(size.height));
+      throw FilmError(fmt::format("film: {} is {} x {}, the first frame {} x {}", frame.string(),
+                                  other.width, other.height, size.width, size.height));
   return size;
 }
 
@@ -93,19 +92,21 @@ void feedFrames(const std::vector<fs::path>& frames, const Feed& feed) {
   for (const fs::path& frame : frames) {
     std::ifstream stream(frame, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream || bytes.empty()) throw FilmError("film: cannot read the frame " + frame.string());
+    if (!stream || bytes.empty())
+      throw FilmError(fmt::format("film: cannot read the frame {}", frame.string()));
     if (!feed(bytes.data(), bytes.size())) return;
   }
 }
 
 std::string shortened(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.size() > 600 ? "..." + text.substr(text.size() - 600) : text;
+  return text.size() > 600 ? fmt::format("...{}", text.substr(text.size() - 600)) : text;
 }
 
 [[noreturn]] void failMissing(const std::string& program) {
-  throw FilmError("film: cannot run '" + program +
-                  "'; install it with: apt-get install ffmpeg  (the frames are kept)");
+  throw FilmError(fmt::format(
+      "film: cannot run '{}'; install it with: apt-get install ffmpeg (the frames are kept)",
+      program));
 }
 
 void encode(const std::vector<fs::path>& frames, const fs::path& part, const FilmOptions& options) {
@@ -113,8 +114,8 @@ void encode(const std::vector<fs::path>& frames, const fs::path& part, const Fil
                                       [&](const Feed& feed) { feedFrames(frames, feed); });
   if (!result.started) failMissing(options.ffmpeg);
   if (result.exitCode != 0 || !result.inputTaken)
-    throw FilmError("film: ffmpeg failed with code " + std::to_string(result.exitCode) + ": " +
-                    shortened(result.errors));
+    throw FilmError(fmt::format("film: ffmpeg failed with code {}: {}", result.exitCode,
+                                shortened(result.errors)));
 }
 
 int countFrames(const fs::path& film, const FilmOptions& options) {
@@ -125,18 +126,10 @@ int countFrames(const fs::path& film, const FilmOptions& options) {
   try {
     return std::stoi(result.output);
   } catch (const std::exception&) {
-    throw FilmError("film: ffprobe cannot read what ffmpeg wrote: " + shortened(result.errors));
+    throw FilmError(
+        fmt::format("film: ffprobe cannot read what ffmpeg wrote: {}", shortened(result.errors)));
   }
 }
-
-// Removes the unfinished film unless it was given its name.
-struct Unfinished {
-  fs::path part;
-  ~Unfinished() {
-    std::error_code ignored;
-    if (!part.empty()) fs::remove(part, ignored);
-  }
-};
 
 }  // namespace
 
@@ -144,12 +137,11 @@ std::vector<fs::path> frameFiles(const fs::path& folder, int first, int last, in
   if (step < 1) throw FilmError("film: the step between frames must be at least 1");
   std::vector<fs::path> files;
   for (int frame = first; frame <= last; frame += step) {
-    char name[32];
-    std::snprintf(name, sizeof name, "%05d.png", frame);
-    files.push_back(folder / name);
+    files.push_back(folder / fmt::format("{:05}.png", frame));
     std::error_code ignored;
     if (!fs::is_regular_file(files.back(), ignored))
-      throw FilmError("film: frame " + files.back().string() + " is missing; render it first");
+      throw FilmError(
+          fmt::format("film: frame {} is missing; render it first", files.back().string()));
   }
   return files;
 }
@@ -158,20 +150,18 @@ FilmReport makeFilm(const std::vector<fs::path>& frames, const fs::path& film,
                     const FilmOptions& options) {
   if (options.framesPerSecond < 1) throw FilmError("film: at least one frame per second is needed");
   const Size size = checkFrames(frames);
-  Unfinished unfinished{film};
-  unfinished.part += "." + std::to_string(::getpid());
-  unfinished.part += ".part";
-  encode(frames, unfinished.part, options);
-  const int counted = countFrames(unfinished.part, options);
+  UnfinishedFile unfinished(film);
+  encode(frames, unfinished.part(), options);
+  const int counted = countFrames(unfinished.part(), options);
   if (counted != static_cast<int>(frames.size()))
-    throw FilmError("film: " + std::to_string(frames.size()) + " frames went in and " +
-                    std::to_string(counted) + " came out");
-  FilmReport report{counted, size.width + size.width % 2, size.height + size.height % 2,
-                    fs::file_size(unfinished.part)};
-  std::error_code error;
-  fs::rename(unfinished.part, film, error);
-  if (error) throw FilmError("film: cannot rename to " + film.string() + ": " + error.message());
-  unfinished.part.clear();
+    throw FilmError(fmt::format("film: {} frames went in and {} came out", frames.size(), counted));
+  const FilmReport report{counted, size.width + size.width % 2, size.height + size.height % 2,
+                          fs::file_size(unfinished.part())};
+  try {
+    unfinished.finish();
+  } catch (const std::system_error& error) {
+    throw FilmError(fmt::format("film: {}", error.what()));
+  }
   return report;
 }
 

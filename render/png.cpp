@@ -2,6 +2,7 @@
 #include "render/png.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <libdeflate.h>
 #include <unistd.h>
 
@@ -11,9 +12,11 @@
 #include <iterator>
 #include <memory>
 #include <stdexcept>
-#include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
+
+#include "render/unfinished.h"
 
 namespace {
 
@@ -55,27 +58,17 @@ unsigned char* deflateForStb(unsigned char* data, int size, int* compressedSize,
 namespace render {
 namespace {
 
-[[noreturn]] void fail(int error, const std::string& what, const std::filesystem::path& file) {
-  throw std::system_error(error, std::generic_category(), what + " " + file.string());
+[[noreturn]] void fail(int error, const char* what, const std::filesystem::path& file) {
+  throw std::system_error(error, std::generic_category(),
+                          fmt::format("{} {}", what, file.string()));
 }
 
-// Removes the temporary file unless it was renamed.
-struct Temporary {
-  std::filesystem::path file;
-  int descriptor = -1;
-  bool kept = false;
-  ~Temporary() {
-    if (descriptor >= 0) ::close(descriptor);
-    if (!kept) ::unlink(file.c_str());
+struct Descriptor {
+  int number = -1;
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
   }
 };
-
-std::filesystem::path temporaryName(const std::filesystem::path& file) {
-  std::filesystem::path part = file;
-  part += "." + std::to_string(::getpid());
-  part += ".part";
-  return part;
-}
 
 void writeAll(int descriptor, const unsigned char* data, std::size_t size,
               const std::filesystem::path& file) {
@@ -90,15 +83,12 @@ void writeAll(int descriptor, const unsigned char* data, std::size_t size,
 
 void writeAndRename(const unsigned char* data, std::size_t size,
                     const std::filesystem::path& file) {
-  const std::filesystem::path part = temporaryName(file);
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(errno, "cannot create", file);
-  Temporary temporary{part, descriptor};
-  writeAll(descriptor, data, size, file);
-  temporary.descriptor = -1;
-  if (::close(descriptor) != 0) fail(errno, "cannot write", file);
-  if (::rename(part.c_str(), file.c_str()) != 0) fail(errno, "cannot rename to", file);
-  temporary.kept = true;
+  UnfinishedFile unfinished(file);
+  Descriptor out{::open(unfinished.part().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
+  if (out.number < 0) fail(errno, "cannot create", file);
+  writeAll(out.number, data, size, file);
+  if (::close(std::exchange(out.number, -1)) != 0) fail(errno, "cannot write", file);
+  unfinished.finish();
 }
 
 }  // namespace
@@ -106,8 +96,8 @@ void writeAndRename(const unsigned char* data, std::size_t size,
 void writePng(const Image& image, const std::filesystem::path& file) {
   const auto size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.width < 1 || image.height < 1 || image.rgb.size() != 3 * size)
-    throw std::invalid_argument("image: " + std::to_string(image.rgb.size()) + " bytes for " +
-                                std::to_string(image.width) + " x " + std::to_string(image.height));
+    throw std::invalid_argument(
+        fmt::format("image: {} bytes for {} x {}", image.rgb.size(), image.width, image.height));
   // Set once: stb reads it as a global, and it is the same for every thread.
   static const bool forced = (stbi_write_force_png_filter = kPaethFilter, true);
   (void)forced;
@@ -132,8 +122,8 @@ Image readPng(const std::filesystem::path& file) {
                             3),
       std::free);
   if (!pixels)
-    throw std::runtime_error("not a readable PNG: " + file.string() + " (" + stbi_failure_reason() +
-                             ")");
+    throw std::runtime_error(
+        fmt::format("not a readable PNG: {} ({})", file.string(), stbi_failure_reason()));
   const auto size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   image.rgb.assign(pixels.get(), pixels.get() + 3 * size);
   return image;

@@ -5,15 +5,19 @@
 #include <stdexcept>
 
 #include "render/bodies.h"
+#include "render/canvas.h"
 #include "render/context.h"
 #include "render/floor.h"
 #include "render/frame.h"
+#include "render/overlay.h"
 #include "render/shaders.h"
 #include "render/shadow.h"
 #include "render/strokes.h"
 
 namespace render {
 namespace {
+
+const std::string kShippedFont = DBD_ASSET_DIR "/fonts/DejaVuSans.ttf";
 
 // An image without multisampling that passes are collected in.
 struct Sheet {
@@ -52,6 +56,7 @@ struct Renderer::Impl {
   Shadow shadow;
   Floor floor;
   Strokes strokes;
+  Canvas canvas;
   GLuint frameBuffer = 0, resolveProgram = 0, emptyArray = 0;
   GLuint bodyTexture = 0, bodyFramebuffer = 0;  // multisampled, or the scene's own when draft
   Sheet scene, picture;                         // the same unless supersampled
@@ -60,7 +65,10 @@ struct Renderer::Impl {
 };
 
 Renderer::Impl::Impl(const RendererOptions& wanted)
-    : options(checked(wanted)), detail(detailOf(wanted.quality)), shadow(detail.shadowSize) {
+    : options(checked(wanted)),
+      detail(detailOf(wanted.quality)),
+      shadow(detail.shadowSize),
+      canvas(wanted.fontFile.empty() ? kShippedFont : wanted.fontFile) {
   frameBuffer = makeBuffer();
   resolveProgram = makeProgram(kViewportVertex, kResolveFragment);
   emptyArray = makeVertexArray();
@@ -163,6 +171,9 @@ const Image& Renderer::draw(const Picture& picture) {
   if (picture.light.shadows) my.shadow.draw(my.bodies, frame);
   my.drawBodies(frame);
   my.finishScene();
+  glBindFramebuffer(GL_FRAMEBUFFER, my.picture.framebuffer);
+  glViewport(0, 0, my.picture.width, my.picture.height);
+  drawOverlay(my.canvas, picture, frame, my.picture.width, my.picture.height);
   my.readBack();
   return my.image;
 }

@@ -1,0 +1,210 @@
+// The only file that includes Dear ImGui. Its packaged OpenGL backend cannot start on OSMesa, so
+// its draw list is drawn here.
+#include "render/canvas.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+
+#include "render/gl.h"
+#include "render/shaders.h"
+
+namespace render {
+namespace {
+
+// Latin, Greek, punctuation, super- and subscripts, currency to letterlike, arrows, operators.
+constexpr ImWchar kGlyphs[] = {0x0020, 0x007E, 0x00A0, 0x017F, 0x0370, 0x03FF, 0x2010,
+                               0x2033, 0x2070, 0x209C, 0x2100, 0x214B, 0x2190, 0x21FF,
+                               0x2200, 0x22FF, 0x25A0, 0x25FF, 0};
+constexpr int kShapesSize = 16;  // any face can serve the shapes; this one is always there
+
+ImVec2 vec(const Pixel& p) { return {p.x(), p.y()}; }
+
+ImU32 pack(const Color& color) {
+  return ImGui::ColorConvertFloat4ToU32({color.x(), color.y(), color.z(), color.w()});
+}
+
+ImTextureID idOf(GLuint texture) {
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+}
+
+std::vector<char> readFont(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream || bytes.size() < 4) throw std::runtime_error("cannot read the font " + file);
+  const std::string tag(bytes.data(), 4);
+  if (tag != std::string("\0\1\0\0", 4) && tag != "true" && tag != "OTTO")
+    throw std::runtime_error("not a TrueType font: " + file);
+  return bytes;
+}
+
+// The font in one size, with the texture of its glyphs.
+struct Face {
+  ImFontAtlas atlas;
+  ImFont* font = nullptr;
+  ImTextureID texture = nullptr;
+
+  Face(std::vector<char>& bytes, int size) {
+    ImFontConfig config;
+    config.FontData = bytes.data();
+    config.FontDataSize = static_cast<int>(bytes.size());
+    config.FontDataOwnedByAtlas = false;
+    config.SizePixels = static_cast<float>(size);
+    config.GlyphRanges = kGlyphs;
+    config.OversampleH = 1;
+    config.PixelSnapH = true;
+    atlas.Flags = ImFontAtlasFlags_NoMouseCursors | ImFontAtlasFlags_NoBakedLines;
+    font = atlas.AddFont(&config);
+    unsigned char* pixels = nullptr;
+    int width = 0, height = 0;
+    atlas.GetTexDataAsAlpha8(&pixels, &width, &height);
+    if (pixels == nullptr) throw std::runtime_error("the font cannot be drawn");
+    const GLuint name = makeTexture(GL_R8, width, height, GL_LINEAR);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_UNSIGNED_BYTE, pixels);
+    texture = idOf(name);
+    atlas.SetTexID(texture);
+    atlas.ClearTexData();
+  }
+};
+
+}  // namespace
+
+struct Canvas::Impl {
+  explicit Impl(const std::string& fontFile);
+
+  Face& face(float size);
+  void uploadAndDraw() const;
+
+  std::vector<char> fontBytes;
+  std::map<int, std::unique_ptr<Face>> faces;  // by size in pixels
+  ImDrawListSharedData shared;
+  ImDrawList list{&shared};
+  GLuint program = 0, array = 0, vertices = 0, indices = 0;
+  GLint sizeUniform = -1;
+  int width = 0, height = 0;
+};
+
+Canvas::Impl::Impl(const std::string& fontFile) : fontBytes(readFont(fontFile)) {
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  program = makeProgram(kCanvasVertex, kCanvasFragment);
+  sizeUniform = glGetUniformLocation(program, "size");
+  array = makeVertexArray();
+  vertices = makeBuffer();
+  indices = makeBuffer();
+  glBindVertexArray(array);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
+  const auto attribute = [](GLuint index, GLint size, GLenum type, std::size_t offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, size, type, type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE,
+                          sizeof(ImDrawVert), reinterpret_cast<const void*>(offset));
+  };
+  attribute(0, 2, GL_FLOAT, offsetof(ImDrawVert, pos));
+  attribute(1, 2, GL_FLOAT, offsetof(ImDrawVert, uv));
+  attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(ImDrawVert, col));
+  shared.TexUvWhitePixel = face(kShapesSize).atlas.TexUvWhitePixel;
+  shared.SetCircleTessellationMaxError(0.3f);
+  shared.InitialFlags = ImDrawListFlags_AntiAliasedLines | ImDrawListFlags_AntiAliasedFill |
+                        ImDrawListFlags_AllowVtxOffset;
+}
+
+Face& Canvas::Impl::face(float size) {
+  const int pixels = std::clamp(static_cast<int>(std::lround(size)), 6, 256);
+  std::unique_ptr<Face>& face = faces[pixels];
+  if (!face) face = std::make_unique<Face>(fontBytes, pixels);
+  return *face;
+}
+
+void Canvas::Impl::uploadAndDraw() const {
+  glBindVertexArray(array);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices);
+  glBufferData(GL_ARRAY_BUFFER, list.VtxBuffer.size_in_bytes(), list.VtxBuffer.Data,
+               GL_STREAM_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, list.IdxBuffer.size_in_bytes(), list.IdxBuffer.Data,
+               GL_STREAM_DRAW);
+  glUseProgram(program);
+  glUniform2f(sizeUniform, static_cast<float>(width), static_cast<float>(height));
+  glEnable(GL_BLEND);
+  for (const ImDrawCmd& command : list.CmdBuffer) {
+    if (command.ElemCount == 0) continue;
+    const auto texture = reinterpret_cast<std::uintptr_t>(command.TextureId);
+    bindTexture(kSourceUnit, GL_TEXTURE_2D, static_cast<GLuint>(texture));
+    const std::size_t first = command.IdxOffset * sizeof(ImDrawIdx);
+    glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
+                             sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
+                             reinterpret_cast<const void*>(first),
+                             static_cast<GLint>(command.VtxOffset));
+  }
+  glDisable(GL_BLEND);
+}
+
+Canvas::Canvas(const std::string& fontFile) : impl_(std::make_unique<Impl>(fontFile)) {}
+
+Canvas::~Canvas() = default;
+
+void Canvas::begin(int width, int height) {
+  Impl& my = *impl_;
+  my.width = width;
+  my.height = height;
+  my.shared.ClipRectFullscreen = {0, 0, static_cast<float>(width), static_cast<float>(height)};
+  my.list._ResetForNewFrame();
+  my.list.PushClipRectFullScreen();
+  my.list.PushTextureID(my.face(kShapesSize).texture);
+}
+
+void Canvas::draw() {
+  impl_->list.PopTextureID();
+  impl_->list.PopClipRect();
+  if (!impl_->list.VtxBuffer.empty()) impl_->uploadAndDraw();
+}
+
+void Canvas::text(const Pixel& at, float size, const Color& color, const std::string& words) {
+  Impl& my = *impl_;
+  const Face& face = my.face(size);
+  my.list.PushTextureID(face.texture);
+  my.list.AddText(face.font, face.font->FontSize,
+                  {at.x(), std::round(at.y()) - std::round(face.font->Ascent)}, pack(color),
+                  words.data(), words.data() + words.size());
+  my.list.PopTextureID();
+}
+
+void Canvas::textWithHalo(const Pixel& at, float size, const Color& color,
+                          const std::string& words) {
+  const float reach = std::max(1.0f, std::round(size / 14));
+  const Color light(1, 1, 1, 0.45f * color.w());
+  for (const float x : {-reach, 0.0f, reach})
+    for (const float y : {-reach, 0.0f, reach})
+      if (x != 0 || y != 0) text(at + Pixel(x, y), size, light, words);
+  text(at, size, color, words);
+}
+
+float Canvas::widthOf(const std::string& words, float size) {
+  const Face& face = impl_->face(size);
+  return face.font
+      ->CalcTextSizeA(face.font->FontSize, 1e9f, 0, words.data(), words.data() + words.size())
+      .x;
+}
+
+void Canvas::fill(const Pixel& from, const Pixel& to, const Color& color, float rounding) {
+  impl_->list.AddRectFilled(vec(from), vec(to), pack(color), rounding);
+}
+
+void Canvas::outline(const Pixel& from, const Pixel& to, const Color& color, float thickness,
+                     float rounding) {
+  impl_->list.AddRect(vec(from), vec(to), pack(color), rounding, 0, thickness);
+}
+
+void Canvas::curve(const std::vector<Pixel>& points, const Color& color, float thickness) {
+  if (points.size() < 2) return;
+  const auto* const first = reinterpret_cast<const ImVec2*>(points.data());
+  impl_->list.AddPolyline(first, static_cast<int>(points.size()), pack(color), 0, thickness);
+}
+
+}  // namespace render

@@ -1,0 +1,185 @@
+// Lays out the panel with fixed sizes and draws its curves.
+#include "render/hud.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace render {
+namespace {
+
+// All in pixels at 720 lines.
+constexpr float kMargin = 16, kPadding = 12, kWidth = 268;
+constexpr float kTitleSize = 17, kTitleStep = 26, kRowSize = 14, kRowStep = 20;
+constexpr float kPlotSize = 12, kPlotTitleStep = 18, kPlotHeight = 76, kPlotStep = 108;
+
+const Color kInk(0.13f, 0.14f, 0.16f, 1), kQuiet(0.42f, 0.43f, 0.46f, 1);
+const Color kPanel(1, 1, 1, 0.86f), kRim(0.80f, 0.81f, 0.83f, 1), kPaper(0.985f, 0.985f, 0.99f, 1);
+const Color kRule(0.90f, 0.90f, 0.92f, 1);
+
+bool shown(float value, bool logarithmic) {
+  return std::isfinite(value) && (!logarithmic || value > 0);
+}
+
+float heightOf(float value, const Plot& plot, const AxisRange& range) {
+  const float level = plot.logarithmic ? std::log10(value) : value;
+  return std::clamp((level - range.low) / (range.high - range.low), 0.0f, 1.0f);
+}
+
+std::string powerOfTen(int exponent) {
+  constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent))) text += kDigits[digit - '0'];
+  return text;
+}
+
+// The next of 1, 2, 5, 10 ... at or above a positive value.
+float niceAbove(float value) {
+  const float decade = std::pow(10.0f, std::floor(std::log10(value)));
+  for (const float step : {1.0f, 2.0f, 5.0f})
+    if (value <= step * decade * 1.0001f) return step * decade;
+  return 10 * decade;
+}
+
+class Pen {  // a canvas with an origin and a scale
+ public:
+  Pen(Canvas& canvas, float scale) : canvas_(canvas), scale_(scale) {}
+  Pixel at(float x, float y) const { return {std::round(x * scale_), std::round(y * scale_)}; }
+  float scale() const { return scale_; }
+  Canvas& canvas() const { return canvas_; }
+  void left(float x, float y, float size, const Color& color, const std::string& words) const {
+    canvas_.text(at(x, y), size * scale_, color, words);
+  }
+  void right(float x, float y, float size, const Color& color, const std::string& words) const {
+    const Pixel corner = at(x, y);
+    const float width = canvas_.widthOf(words, size * scale_);
+    canvas_.text({corner.x() - width, corner.y()}, size * scale_, color, words);
+  }
+
+ private:
+  Canvas& canvas_;
+  float scale_;
+};
+
+// Curves with more points than pixels keep the lowest and the highest of each pixel column.
+void drawCurve(const Pen& pen, const Plot& plot, const Plot::Curve& curve, const AxisRange& range,
+               std::size_t span, const Pixel& from, const Pixel& to) {
+  const float width = to.x() - from.x(), height = to.y() - from.y();
+  const auto column = [&](std::size_t i) {
+    return from.x() + width * static_cast<float>(i) / static_cast<float>(span - 1);
+  };
+  const float thickness = std::max(1.5f * pen.scale(), 1.0f);
+  std::vector<Pixel> points;
+  const std::size_t count = std::min(curve.values.size(), span);
+  for (std::size_t i = 0; i < count;) {
+    const float x = column(i);
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    bool broken = false;
+    do {
+      const float value = curve.values[i];
+      broken |= !shown(value, plot.logarithmic);
+      if (broken) continue;
+      const float y = heightOf(value, plot, range);
+      low = std::min(low, y);
+      high = std::max(high, y);
+    } while (++i < count && column(i) < x + 0.5f);
+    if (high >= low) points.push_back({x, to.y() - high * height});
+    if (high > low) points.push_back({x, to.y() - low * height});
+    if (!broken) continue;
+    pen.canvas().curve(points, curve.color, thickness);
+    points.clear();
+  }
+  pen.canvas().curve(points, curve.color, thickness);
+}
+
+std::size_t spanOf(const Plot& plot) {
+  std::size_t span = static_cast<std::size_t>(std::max(plot.length, 2));
+  for (const Plot::Curve& curve : plot.curves) span = std::max(span, curve.values.size());
+  return span;
+}
+
+void drawPlotTitle(const Pen& pen, const Plot& plot, float x, float y) {
+  const std::string title =
+      plot.unit.empty() ? plot.title : fmt::format("{} [{}]", plot.title, plot.unit);
+  pen.left(x, y, kPlotSize, kInk, title);
+  float end = x + kWidth - 2 * kPadding;
+  for (std::size_t i = plot.curves.size(); i-- > 0;) {
+    const Plot::Curve& curve = plot.curves[i];
+    if (curve.name.empty()) continue;
+    pen.right(end, y, kPlotSize, curve.color, curve.name);
+    end -= pen.canvas().widthOf(curve.name, kPlotSize * pen.scale()) / pen.scale() + 8;
+  }
+}
+
+void drawPlot(const Pen& pen, const Plot& plot, float x, float y) {
+  drawPlotTitle(pen, plot, x, y + kPlotSize);
+  const AxisRange range = axisRangeOf(plot);
+  const Pixel from = pen.at(x, y + kPlotTitleStep);
+  const Pixel to = pen.at(x + kWidth - 2 * kPadding, y + kPlotTitleStep + kPlotHeight);
+  pen.canvas().fill(from, to, kPaper);
+  const int rules = plot.logarithmic ? static_cast<int>(std::lround(range.high - range.low)) : 4;
+  const int stride = (rules + 5) / 6;
+  for (int i = stride; i < rules; i += stride) {
+    const float share = static_cast<float>(i) / static_cast<float>(rules);
+    const float level = std::round(to.y() + (from.y() - to.y()) * share) + 0.5f;
+    pen.canvas().curve({{from.x(), level}, {to.x(), level}}, kRule, 1);
+  }
+  for (const Plot::Curve& curve : plot.curves)
+    drawCurve(pen, plot, curve, range, spanOf(plot), from, to);
+  pen.canvas().outline(from, to, kRim, std::max(1.0f, std::round(pen.scale())));
+  pen.left(x + 4, y + kPlotTitleStep + kPlotSize + 1, kPlotSize - 1, kQuiet, range.highText);
+  pen.left(x + 4, y + kPlotTitleStep + kPlotHeight - 5, kPlotSize - 1, kQuiet, range.lowText);
+}
+
+}  // namespace
+
+AxisRange axisRangeOf(const Plot& plot) {
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (const Plot::Curve& curve : plot.curves)
+    for (const float value : curve.values) {
+      if (!shown(value, plot.logarithmic)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  if (plot.logarithmic) {
+    if (low > high) low = high = 1;
+    const int from = static_cast<int>(std::floor(std::log10(low)));
+    const int to = std::max(static_cast<int>(std::ceil(std::log10(high))), from + 1);
+    return {static_cast<float>(from), static_cast<float>(to), powerOfTen(from), powerOfTen(to)};
+  }
+  if (low > high) return {0, 1, "0", "1"};
+  low = std::min(low, 0.0f);
+  high = std::max(high, 0.0f);
+  if (low == high) high = 1;
+  high = high > 0 ? niceAbove(high) : 0;
+  low = low < 0 ? -niceAbove(-low) : 0;
+  return {low, high, fmt::format("{:g}", low), fmt::format("{:g}", high)};
+}
+
+void drawHud(Canvas& canvas, const Hud& hud, float scale) {
+  const Pen pen(canvas, scale);
+  const float rows = static_cast<float>(hud.rows.size());
+  const float plots = static_cast<float>(hud.plots.size());
+  const float title = hud.title.empty() ? 0 : kTitleStep;
+  const float height = 2 * kPadding + title + rows * kRowStep + plots * kPlotStep - 4;
+  const Pixel from = pen.at(kMargin, kMargin), to = pen.at(kMargin + kWidth, kMargin + height);
+  canvas.fill(from, to, kPanel, 5 * scale);
+  canvas.outline(from, to, kRim, std::max(1.0f, std::round(scale)), 5 * scale);
+  const float x = kMargin + kPadding, right = kMargin + kWidth - kPadding;
+  float y = kMargin + kPadding;
+  if (!hud.title.empty()) pen.left(x, y + kTitleSize - 3, kTitleSize, kInk, hud.title);
+  y += title;
+  for (const auto& [name, value] : hud.rows) {
+    pen.left(x, y + kRowSize - 2, kRowSize, kQuiet, name);
+    pen.right(right, y + kRowSize - 2, kRowSize, kInk, value);
+    y += kRowStep;
+  }
+  for (const Plot& plot : hud.plots) {
+    drawPlot(pen, plot, x, y);
+    y += kPlotStep;
+  }
+}
+
+}  // namespace render

@@ -1,0 +1,36 @@
+// Labels follow their points; the caption and the panel keep their corners.
+#include "render/overlay.h"
+
+#include "render/hud.h"
+
+namespace render {
+namespace {
+
+constexpr float kMargin = 18, kCaptionSize = 18;  // pixels at 720 lines
+const Color kInk(0.13f, 0.14f, 0.16f, 1);
+
+void drawLabel(Canvas& canvas, const Label& label, const Frame& frame, int width, int height,
+               float scale) {
+  if (frame.depthOf(label.at) < frame.nearest) return;
+  const Eigen::Vector4f clip = frame.block.toClip * label.at.homogeneous();
+  const Pixel at((0.5f + 0.5f * clip.x() / clip.w()) * static_cast<float>(width),
+                 (0.5f - 0.5f * clip.y() / clip.w()) * static_cast<float>(height));
+  canvas.textWithHalo(at + scale * label.offset, scale * label.size, label.color, label.text);
+}
+
+}  // namespace
+
+void drawOverlay(Canvas& canvas, const Picture& picture, const Frame& frame, int width,
+                 int height) {
+  if (picture.labels.empty() && picture.caption.empty() && !picture.hud.visible) return;
+  const float scale = static_cast<float>(height) / 720.0f;
+  canvas.begin(width, height);
+  for (const Label& label : picture.labels) drawLabel(canvas, label, frame, width, height, scale);
+  if (!picture.caption.empty())
+    canvas.textWithHalo({kMargin * scale, static_cast<float>(height) - kMargin * scale},
+                        kCaptionSize * scale, kInk, picture.caption);
+  if (picture.hud.visible) drawHud(canvas, picture.hud, scale);
+  canvas.draw();
+}
+
+}  // namespace render
