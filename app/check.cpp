@@ -24,7 +24,8 @@ std::string verdictTable(const scenes::Scene& scene,
                          const std::vector<scenes::Checker::Verdict>& verdicts) {
   std::string table;
   for (const scenes::Checker::Verdict& verdict : verdicts) {
-    table += fmt::format("{:<5} {:<18} {}", verdict.holds ? "ok" : "FAIL", scene.name, verdict.text);
+    table +=
+        fmt::format("{:<5} {:<18} {}", verdict.holds ? "ok" : "FAIL", scene.name, verdict.text);
     table += fmt::format("  (at {:.4g} s; {}:{})\n", verdict.atTime, scene.path,
                          verdict.expectation.line);
   }

@@ -24,7 +24,8 @@ std::vector<std::string> constraintKinds(const std::vector<scenes::FrameMetrics>
   std::vector<std::string> kinds;
   for (const scenes::FrameMetrics& frame : metrics) {
     for (const physics::KindError& error : frame.errors) {
-      if (std::find(kinds.begin(), kinds.end(), error.kind) == kinds.end()) kinds.push_back(error.kind);
+      if (std::find(kinds.begin(), kinds.end(), error.kind) == kinds.end())
+        kinds.push_back(error.kind);
     }
   }
   return kinds;

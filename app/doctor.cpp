@@ -37,7 +37,8 @@ std::string firstLine(const std::string& command) {
   return line;
 }
 
-Finding findProgram(const std::string& what, const std::string& command, const std::string& package) {
+Finding findProgram(const std::string& what, const std::string& command,
+                    const std::string& package) {
   const std::string line = firstLine(command);
   if (line.empty()) return {what, "not found", false, package};
   return {what, line, true, package};
@@ -96,11 +97,13 @@ ExitCode doctor() {
   std::string missing;
   bool works = true;
   for (const Finding& finding : findings) {
-    say(fmt::format("{:<5} {:<9} {}\n", finding.works ? "ok" : "FAIL", finding.what, finding.value));
+    say(fmt::format("{:<5} {:<9} {}\n", finding.works ? "ok" : "FAIL", finding.what,
+                    finding.value));
     works = works && finding.works;
     if (!finding.works && !finding.package.empty()) missing += " " + finding.package;
   }
-  if (!missing.empty()) say("\nTo install what is missing:\n  sudo apt-get install -y" + missing + "\n");
+  if (!missing.empty())
+    say("\nTo install what is missing:\n  sudo apt-get install -y" + missing + "\n");
   return works ? ExitCode::kDone : ExitCode::kEnvironment;
 }
 

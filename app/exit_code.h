@@ -1,4 +1,4 @@
-// How a command ends, and the error that says the machine, not the user, stood in the way.
+// How a command ends, and the errors that say so from deep inside.
 #pragma once
 
 #include <stdexcept>
@@ -14,7 +14,14 @@ enum class ExitCode {
   kInterrupted = 130,
 };
 
+// The machine, not the user, stood in the way.
 class EnvironmentError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// A result is not what it has to be, and the command cannot go on.
+class CheckFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

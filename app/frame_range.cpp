@@ -50,7 +50,8 @@ std::vector<int> parseFrameRange(const std::string& text, int count) {
   const std::optional<int> first = parsePart(text, parts[0]);
   if (parts.size() == 1) {
     const int only = fromEnd(*first, count);
-    if (only < 0 || only >= count) fail(text, fmt::format("the scene has frames 0 to {}", count - 1));
+    if (only < 0 || only >= count)
+      fail(text, fmt::format("the scene has frames 0 to {}", count - 1));
     return {only};
   }
   const std::optional<int> last = parsePart(text, parts[1]);
@@ -60,7 +61,8 @@ std::vector<int> parseFrameRange(const std::string& text, int count) {
   const int low = std::max(0, fromEnd(first.value_or(0), count));
   const int high = std::min(count, fromEnd(last.value_or(count), count));
   std::vector<int> frames;
-  for (std::int64_t frame = low; frame < high; frame += step) frames.push_back(static_cast<int>(frame));
+  for (std::int64_t frame = low; frame < high; frame += step)
+    frames.push_back(static_cast<int>(frame));
   if (frames.empty()) fail(text, fmt::format("no frame left; the scene has 0 to {}", count - 1));
   return frames;
 }

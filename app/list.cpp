@@ -33,7 +33,8 @@ std::string asJson(const std::vector<scenes::Scene>& library) {
 std::string asTable(const std::vector<scenes::Scene>& library) {
   std::string table;
   for (const scenes::Scene& scene : library) {
-    table += fmt::format("{:<18}{:<48}{}\n", scene.name, scene.title, fmt::join(scene.effects, " "));
+    table +=
+        fmt::format("{:<18}{:<48}{}\n", scene.name, scene.title, fmt::join(scene.effects, " "));
   }
   return table;
 }

@@ -60,7 +60,8 @@ ExitCode run(int argc, const char* const* argv) {
     app::say(text.str());
     return ExitCode::kDone;
   } catch (const CLI::ParseError& error) {
-    throw scenes::InputError(fmt::format("{}\nRun 'dbd --help' or 'dbd COMMAND --help'.", error.what()));
+    throw scenes::InputError(
+        fmt::format("{}\nRun 'dbd --help' or 'dbd COMMAND --help'.", error.what()));
   }
   return action();
 }
@@ -78,6 +79,8 @@ ExitCode runAndReport(int argc, const char* const* argv) {
     return fail(error.what(), ExitCode::kBadInput);
   } catch (const app::EnvironmentError& error) {
     return fail(error.what(), ExitCode::kEnvironment);
+  } catch (const app::CheckFailed& error) {
+    return fail(error.what(), ExitCode::kCheckFailed);
   } catch (const std::system_error& error) {
     return fail(error.what(), ExitCode::kEnvironment);
   } catch (const std::bad_alloc&) {
@@ -93,8 +96,8 @@ ExitCode runAndReport(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
   app::guardStandardStreams();
   app::watchInterrupts();
-  // Each renderer draws on its own thread; Mesa's would only compete with them. Read by Mesa when the
-  // first context is made.
+  // Each renderer draws on its own thread; Mesa's would only compete with them. Read by Mesa when
+  // the first context is made.
   setenv("LP_NUM_THREADS", "0", 1);
   const ExitCode code = runAndReport(argc, argv);
   std::fflush(stdout);

@@ -35,7 +35,8 @@ void addScene(CLI::App& command, CommonOptions& options) {
 }
 
 void addCommon(CLI::App& command, CommonOptions& options) {
-  command.add_option("-o,--out", options.folder, "Folder for the output [out/NAME]")->type_name("DIR");
+  command.add_option("-o,--out", options.folder, "Folder for the output [out/NAME]")
+      ->type_name("DIR");
   command.add_option("--threads", options.threads, "Threads [the cores there are]")
       ->check(CLI::Range(1, kMostThreads))
       ->type_name("N");

@@ -33,6 +33,6 @@ void writeFile(const std::filesystem::path& path, std::string_view bytes);
 void makeFolder(const std::filesystem::path& folder);
 void removeFile(const std::filesystem::path& path);  // absent is fine
 
-constexpr const char* kPartial = ".partial";  // the ending of the temporary name
+constexpr const char* kPartial = ".part";  // the ending of the temporary name
 
 }  // namespace app

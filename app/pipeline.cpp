@@ -1,25 +1,12 @@
 // Pictures in, images out, on as many threads as asked.
 #include "app/pipeline.h"
 
-#include <memory>
 #include <utility>
 
-#include "app/exit_code.h"
+#include "app/open_renderer.h"
 #include "app/stopwatch.h"
 
 namespace app {
-
-namespace {
-
-std::unique_ptr<render::Renderer> makeRenderer(const render::RendererOptions& options) {
-  try {
-    return std::make_unique<render::Renderer>(options);
-  } catch (const std::runtime_error& error) {
-    throw EnvironmentError(error.what());
-  }
-}
-
-}  // namespace
 
 Pipeline::Pipeline(const render::RendererOptions& options, int workers, Sink sink)
     : sink_(std::move(sink)), queue_(static_cast<std::size_t>(2 * workers)) {
@@ -54,7 +41,7 @@ DrawSeconds Pipeline::seconds() const {
 
 void Pipeline::work(const render::RendererOptions& options) {
   try {
-    const std::unique_ptr<render::Renderer> renderer = makeRenderer(options);
+    const std::unique_ptr<render::Renderer> renderer = openRenderer(options);
     while (const std::optional<Job> job = queue_.pop()) {
       Stopwatch watch;
       const render::Image& image = renderer->draw(job->picture);

@@ -48,8 +48,9 @@ void Progress::advance(int by) {
   const double now = watch_.seconds();
   const double waited = now - reportedAt_;
   const bool tenth = 10 * (done_ - reportedDone_) >= total_;
-  const bool due = mode_ == ProgressMode::kBar ? waited >= kBarPeriod
-                                               : waited >= kLinePeriod || (tenth && waited >= kBarPeriod);
+  const bool due = mode_ == ProgressMode::kBar
+                       ? waited >= kBarPeriod
+                       : waited >= kLinePeriod || (tenth && waited >= kBarPeriod);
   if (due && done_ < total_) report(now);
 }
 
@@ -66,19 +67,20 @@ void Progress::report(double seconds) {
   const double remaining = done_ > 0 ? seconds / done_ * (total_ - done_) : 0;
   if (mode_ == ProgressMode::kBar) return drawBar(seconds, remaining);
   if (mode_ == ProgressMode::kJson) {
-    const nlohmann::ordered_json line = {{"scene", scene_},     {"stage", stage_},
-                                         {"done", done_},       {"total", total_},
+    const nlohmann::ordered_json line = {{"scene", scene_},    {"stage", stage_},
+                                         {"done", done_},      {"total", total_},
                                          {"seconds", seconds}, {"remaining", remaining}};
     return note(line.dump() + "\n");
   }
   const int percent = static_cast<int>(100LL * done_ / std::max(1, total_));
   note(fmt::format("{}: {} {}/{} ({} %), {} {}\n", scene_, stage_, done_, total_, percent,
-                   finished_ ? "took" : "about", clockText(finished_ ? seconds : remaining) +
-                   (finished_ ? "" : " left")));
+                   finished_ ? "took" : "about",
+                   clockText(finished_ ? seconds : remaining) + (finished_ ? "" : " left")));
 }
 
 void Progress::drawBar(double seconds, double remaining) {
-  const int cells = static_cast<int>(static_cast<long long>(kBarCells) * done_ / std::max(1, total_));
+  const int cells =
+      static_cast<int>(static_cast<long long>(kBarCells) * done_ / std::max(1, total_));
   const std::string time =
       finished_ ? "took " + clockText(seconds) : clockText(remaining) + " left";
   note(fmt::format("\r{}: {} [{:-<{}}] {}/{} {}   ", scene_, stage_, std::string(cells, '#'),

@@ -27,12 +27,18 @@ Json describeContact(const physics::ContactSettings& contact) {
 
 Json describeSettings(const scenes::Scene& scene) {
   const physics::Settings& s = scene.settings;
-  Json json = {{"duration", scene.duration}, {"fps", scene.fps},
-               {"frames", scene.frameCount()}, {"seed", scene.seed},
-               {"dt", s.dt}, {"substeps", s.substeps},
-               {"iterations", s.iterations}, {"method", static_cast<int>(s.method)},
-               {"stepping", static_cast<int>(s.stepping)}, {"relaxation", s.relaxation},
-               {"regularisation", s.regularisation}, {"warm_start", s.warmStart}};
+  Json json = {{"duration", scene.duration},
+               {"fps", scene.fps},
+               {"frames", scene.frameCount()},
+               {"seed", scene.seed},
+               {"dt", s.dt},
+               {"substeps", s.substeps},
+               {"iterations", s.iterations},
+               {"method", static_cast<int>(s.method)},
+               {"stepping", static_cast<int>(s.stepping)},
+               {"relaxation", s.relaxation},
+               {"regularisation", s.regularisation},
+               {"warm_start", s.warmStart}};
   json["gravity"] = s.gravity ? toJson(*s.gravity) : Json();
   json["contact"] = s.contact ? describeContact(*s.contact) : Json();
   return json;
@@ -108,7 +114,7 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
     record.stateHashes = json.at("state_hashes").get<std::vector<std::string>>();
     record.expectations = json.at("expectations");
     record.seconds = json.at("seconds");
-    record.video = json.at("video").get<std::string>();
+    record.video = json.at("video");
     record.finished = json.at("finished").get<bool>();
     return record;
   } catch (const Json::exception&) {
@@ -117,14 +123,10 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
 }
 
 void writeRecord(const RunRecord& record, const std::filesystem::path& folder) {
-  const Json json = {{"program", record.program},
-                     {"scene", record.scene},
-                     {"settings", record.settings},
-                     {"picture", record.picture},
-                     {"finished", record.finished},
-                     {"video", record.video},
-                     {"seconds", record.seconds},
-                     {"expectations", record.expectations},
+  const Json json = {{"program", record.program},         {"scene", record.scene},
+                     {"settings", record.settings},       {"picture", record.picture},
+                     {"finished", record.finished},       {"video", record.video},
+                     {"seconds", record.seconds},         {"expectations", record.expectations},
                      {"state_hashes", record.stateHashes}};
   constexpr int kIndent = 1;
   writeFile(folder / kFile, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
@@ -132,9 +134,12 @@ void writeRecord(const RunRecord& record, const std::filesystem::path& folder) {
 
 const char* qualityName(render::Quality quality) {
   switch (quality) {
-    case render::Quality::kDraft: return "draft";
-    case render::Quality::kStandard: return "standard";
-    case render::Quality::kPaper: return "paper";
+    case render::Quality::kDraft:
+      return "draft";
+    case render::Quality::kStandard:
+      return "standard";
+    case render::Quality::kPaper:
+      return "paper";
   }
   return "";
 }

@@ -21,7 +21,7 @@ struct RunRecord {
   std::vector<std::string> stateHashes;  // per frame; empty text: not known
   Json expectations = Json::array();     // verdicts, once the whole run was simulated
   Json seconds = Json::object();         // per stage; runs of the same inputs add up
-  std::string video;                     // file name in the folder, empty: none
+  Json video;                            // the film and its frames; null: none
   bool finished = false;                 // all that was asked for is written
 
   bool sameStates(const RunRecord& other) const;

@@ -1,0 +1,34 @@
+// A page of want / got / difference for images that were compared.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/compare.h"
+
+namespace app {
+
+struct ImagePair {
+  std::string name;                   // "pyramid 00030"
+  std::optional<render::Image> want;  // absent: there is none
+  std::optional<render::Image> got;
+  render::Comparison comparison;
+  bool passed = false;
+  std::string remark;  // which layer moved
+};
+
+// Compares; a missing side never passes.
+ImagePair comparePair(std::string name, std::optional<render::Image> want,
+                      std::optional<render::Image> got);
+
+// One line: "FAIL  pyramid 00030  412 pixels ...".
+std::string describePair(const ImagePair& pair);
+
+// FOLDER/index.html and the images of the pairs that failed. Returns the page's path.
+std::filesystem::path writeImageReport(const std::string& title,
+                                       const std::vector<ImagePair>& pairs,
+                                       const std::filesystem::path& folder);
+
+}  // namespace app

@@ -1,0 +1,175 @@
+// Simulating and drawing a scene into a folder of frames, or continuing where a run was stopped.
+#include "app/render_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "app/frame_folder.h"
+#include "app/interrupt.h"
+#include "app/open_renderer.h"
+#include "app/output_file.h"
+#include "app/pipeline.h"
+#include "app/stopwatch.h"
+#include "render/png.h"
+
+namespace app {
+
+namespace {
+
+render::Renderer::Info rendererInfo() {
+  constexpr int kSide = 16;
+  return openRenderer({kSide, kSide, render::Quality::kDraft, ""})->info();
+}
+
+// Takes over what an earlier run of the same inputs knows; otherwise empties the folder.
+void openFolder(const FrameFolder& frames, const RenderJob& job, RenderResult& result) {
+  const std::optional<RunRecord> earlier = readRecord(job.folder);
+  if (!job.fresh && earlier && earlier->sameFrames(result.record)) {
+    result.record = *earlier;
+  } else {
+    if (!job.fresh && !frames.empty()) {
+      result.remark =
+          earlier ? "the scene, its settings or the program changed: every frame is drawn again"
+                  : "no run.json tells what the frames show: every frame is drawn again";
+    }
+    frames.clear();
+  }
+  frames.removeLeftovers();
+}
+
+bool isComplete(const FrameFolder& frames, const RenderJob& job, const RunRecord& record) {
+  const bool recorded =
+      record.finished && job.frames.back() < static_cast<int>(record.stateHashes.size());
+  return recorded && std::all_of(job.frames.begin(), job.frames.end(), [&](int frame) {
+           return !record.stateHashes[frame].empty() && frames.has(frame);
+         });
+}
+
+// One run from the first frame to the last one wanted.
+class Drawing {
+ public:
+  Drawing(const scenes::Scene& scene, const RenderJob& job, const FrameFolder& frames,
+          const scenes::MotionBounds& bounds)
+      : job_(job),
+        frames_(frames),
+        bounds_(bounds),
+        simulation_(scene),
+        checker_(scene),
+        progress_(job.progress, scene.name, "rendering", static_cast<int>(job.frames.size())),
+        pipeline_(job.renderer, job.threads, [this](int frame, const render::Image& image) {
+          render::writePng(image, frames_.file(frame));
+          progress_.advance();
+        }) {}
+
+  void run(RenderResult& result) {
+    const Stopwatch watch;
+    result.end = play(simulation_, job_.frames.back() + 1,
+                      [&](double stepSeconds) { visit(stepSeconds, result); });
+    if (result.end.code == ExitCode::kInterrupted) {
+      pipeline_.abandon();
+    } else {
+      pipeline_.finish();
+      progress_.finish();
+    }
+    const bool whole = result.end.frames == simulation_.scene().frameCount();
+    if (whole) result.record.expectations = describeVerdicts(checker_.verdicts());
+    result.record.finished = result.end.code == ExitCode::kDone;
+    addSeconds(result.record, watch.seconds());
+  }
+
+ private:
+  void visit(double stepSeconds, RenderResult& result) {
+    simulateSeconds_ += stepSeconds;
+    checker_.observe(simulation_);
+    if (job_.view.hud) history_.push_back(simulation_.metrics());
+    const int frame = simulation_.frame();
+    const bool same = agreesWithRecord(frame, result.record);
+    const bool wanted = std::binary_search(job_.frames.begin(), job_.frames.end(), frame);
+    if (!same) {
+      removeFile(frames_.file(frame));
+      result.remark = "states differ from the earlier run (did an asset change?): use --fresh";
+    }
+    if (!wanted) return;
+    if (same && frames_.has(frame)) {
+      ++result.kept;
+      progress_.advance();
+      return;
+    }
+    ++result.drawn;
+    const Stopwatch watch;
+    render::Picture picture = scenes::view(simulation_, bounds_, job_.view, history_);
+    viewSeconds_ += watch.seconds();
+    pipeline_.draw(frame, std::move(picture));
+  }
+
+  bool agreesWithRecord(int frame, RunRecord& record) const {
+    if (static_cast<int>(record.stateHashes.size()) <= frame) record.stateHashes.resize(frame + 1);
+    const std::string now = hexadecimal(simulation_.stateHash());
+    const std::string before = std::exchange(record.stateHashes[frame], now);
+    return before.empty() || before == now;
+  }
+
+  void addSeconds(RunRecord& record, double wall) const {
+    const DrawSeconds drawing = pipeline_.seconds();
+    const auto add = [&record](const char* stage, double seconds) {
+      record.seconds[stage] = record.seconds.value(stage, 0.0) + seconds;
+    };
+    add("simulate", simulateSeconds_);
+    add("view", viewSeconds_);
+    add("draw", drawing.draw);
+    add("write", drawing.write);
+    add("wall", wall);
+  }
+
+  const RenderJob& job_;
+  const FrameFolder& frames_;
+  const scenes::MotionBounds& bounds_;
+  scenes::Simulation simulation_;
+  scenes::Checker checker_;
+  std::vector<scenes::FrameMetrics> history_;  // for the HUD
+  double simulateSeconds_ = 0, viewSeconds_ = 0;
+  Progress progress_;
+  Pipeline pipeline_;  // last: its threads use the others
+};
+
+}  // namespace
+
+scenes::MotionBounds findBounds(const scenes::Scene& scene, int frames, ProgressMode mode) {
+  scenes::MotionBounds bounds;
+  if (!scenes::needsMotionBounds(scene)) return bounds;
+  scenes::Simulation simulation(scene);
+  Progress progress(mode, scene.name, "finding the camera", frames);
+  play(simulation, frames, [&](double) {
+    bounds.include(simulation);
+    progress.advance();
+  });
+  if (!interrupted()) progress.finish();
+  return bounds;
+}
+
+RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job) {
+  RenderResult result;
+  result.record = makeRecord(scene);
+  result.record.picture =
+      describePicture(job.renderer, rendererInfo(), job.view.hud, job.view.overlays);
+  const FrameFolder frames(job.folder);
+  openFolder(frames, job, result);
+  if (isComplete(frames, job, result.record)) {
+    result.kept = static_cast<int>(job.frames.size());
+    return result;
+  }
+  result.record.finished = false;
+  writeRecord(result.record, job.folder);
+  const scenes::MotionBounds bounds = findBounds(scene, scene.frameCount(), job.progress);
+  if (interrupted()) {
+    result.end.code = ExitCode::kInterrupted;
+    return result;
+  }
+  Drawing(scene, job, frames, bounds).run(result);
+  writeRecord(result.record, job.folder);
+  return result;
+}
+
+}  // namespace app
