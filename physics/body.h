@@ -22,8 +22,9 @@ struct Friction {
 
 struct BodyDef {
   Shape shape = PointShape{};
-  double mass = 1;              // kg, > 0 where the body is dynamic
-  std::optional<Vec3> inertia;  // principal moments, body frame [kg m^2]; absent: the shape's at this mass
+  double mass = 1;  // kg, > 0 where the body is dynamic
+  std::optional<Vec3>
+      inertia;  // principal moments, body frame [kg m^2]; absent: the shape's at this mass
   Pose pose;
   Velocity velocity;
   Motion motion = Motion::kDynamic;
@@ -32,22 +33,30 @@ struct BodyDef {
 
 // The inverse mass and the inverse inertia in the world frame; zeros where nothing moves.
 struct InverseMass {
-  double m = 0;                // 1/kg
+  double m = 0;                 // 1/kg
   Mat3 inertia = Mat3::Zero();  // 1/(kg m^2), at the pose of the last refresh
+};
+
+// Displacement of this substep that only takes back an error which stood at X^t (an open joint, an
+// overlap). It moves the body and does not become velocity. paper.md
+struct Correction {
+  Vec3 dx = Vec3::Zero();      // m
+  Vec3 dtheta = Vec3::Zero();  // rad, world frame
 };
 
 // Bodies as the solver sees them: arrays indexed by BodyId.
 struct Bodies {
-  std::vector<Pose> pose;             // X^{t+1} + Delta X while a step is being solved
-  std::vector<Pose> start;            // X^t, the start of the present substep
+  std::vector<Pose> pose;   // X^{t+1} + Delta X while a step is being solved
+  std::vector<Pose> start;  // X^t, the start of the present substep
   std::vector<Velocity> velocity;
   std::vector<InverseMass> inverse;
-  std::vector<Vec3> inverseInertia;   // principal, body frame; zero: does not rotate by torque
-  std::vector<Vec3> inertia;          // principal, body frame
+  std::vector<Vec3> inverseInertia;  // principal, body frame; zero: does not rotate by torque
+  std::vector<Vec3> inertia;         // principal, body frame
   std::vector<double> mass;
   std::vector<Motion> motion;
-  std::vector<Vec3> shift;            // sum of the displacements Delta x of this substep [m]
-  std::vector<Vec3> freeTurn;         // log of the predicted rotation of this substep, world frame [rad]
+  std::vector<Vec3> shift;             // sum of the displacements Delta x of this substep [m]
+  std::vector<Correction> correction;  // the part of the displacement that is not motion
+  std::vector<Vec3> freeTurn;  // log of the predicted rotation of this substep, world frame [rad]
   std::vector<Shape> shape;
   std::vector<Friction> friction;
 

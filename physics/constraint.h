@@ -1,10 +1,12 @@
 // A constraint is its error c(X), its gradient and its bounds; the solver is one.
 //
 //   A = J M^-1 J^T,  alpha = row.alpha + epsilon tr(A)/rows
-//   lambda <- clamp(lambda - xi (A + alpha)^-1 (c + alpha lambda)),  dX += M^-1 J^T (change of lambda)
+//   lambda <- clamp(lambda - xi (A + alpha)^-1 (c + alpha lambda)),  dX += M^-1 J^T (change of
+//   lambda)
 //
-// which is (52) with relaxation (53) and regularisation (56),(59) in the corrected signs of paper.md, the
-// total multiplier clamped and the difference applied. lambda is the multiplier times h^2.
+// which is (52) with relaxation (53) and regularisation (56),(59) in the corrected signs of
+// paper.md, the total multiplier clamped and the difference applied. lambda is the multiplier times
+// h^2.
 #pragma once
 
 #include <array>
@@ -18,8 +20,8 @@
 
 namespace physics {
 
-// What a constraint may look at: the present displaced poses X^{t+1} + dX, the poses at the start of the
-// substep, and its length [s].
+// What a constraint may look at: the present displaced poses X^{t+1} + dX, the poses at the start
+// of the substep, and its length [s].
 struct Configuration {
   std::span<const Pose> now, start;
   double dt = 0;
@@ -31,13 +33,22 @@ struct Row {
   using Vector = Eigen::Matrix<double, kRows, 1>;
   using Gradient = Eigen::Matrix<double, kRows, 3>;
   Vector c = Vector::Zero();
-  std::array<Gradient, kBodies> linear;   // dc/dx, only where the kind is linear
-  std::array<Gradient, kBodies> angular;  // dc/dtheta; theta is a world-frame rotation, q <- exp(theta) q
-  double alpha = 0;                       // compliance, in units of A
-  bool active = true;                     // false: nothing to solve, whatever c
+  std::array<Gradient, kBodies> linear;  // dc/dx, only where the kind is linear
+  std::array<Gradient, kBodies>
+      angular;         // dc/dtheta; theta is a world-frame rotation, q <- exp(theta) q
+  double alpha = 0;    // compliance, in units of A
+  bool active = true;  // false: nothing to solve, whatever c
   double low = -std::numeric_limits<double>::infinity();  // bounds of every component of the total
   double high = std::numeric_limits<double>::infinity();
   double longest = std::numeric_limits<double>::infinity();  // bound of the total's length
+};
+
+template <class C>
+struct Multipliers {
+  using Vector = typename Row<C::kBodies, C::kRows>::Vector;
+  Vector total = Vector::Zero();     // accumulated, of the motion; the next substep's first guess
+  Vector once = Vector::Zero();      // accumulated, of the error that stood at X^t
+  Vector standing = Vector::Zero();  // that error
 };
 
 // The constraints of one kind, in the order they were added.
@@ -46,11 +57,18 @@ struct Set {
   using Vector = typename Row<C::kBodies, C::kRows>::Vector;
   struct Tuned {
     double relaxation, regularisation;
+    bool split;
   };
   std::vector<C> items;
-  std::vector<Vector> total;  // accumulated multipliers [unit of J M^-1 J^T inverse times c]
+  std::vector<Multipliers<C>> lambda;
   std::vector<Tuned> tuned;
 };
+
+// Springs, drives and motors are forces: they have no error that could stand.
+template <class C>
+constexpr bool isForce() {
+  return requires { C::kForce; };
+}
 
 template <class C>
 Form formOf(const C& item) {
@@ -83,17 +101,25 @@ Eigen::Matrix<double, C::kRows, C::kRows> resistance(const C& item,
 }
 
 template <class C>
-void displaceBodies(const C& item, const Response<C>& response,
-                    const typename Set<C>::Vector& change, Bodies& bodies) {
+void displaceBodies(const C& item, const Response<C>& response, const typename Set<C>::Vector& once,
+                    const typename Set<C>::Vector& lasting, Bodies& bodies) {
+  const bool corrects = !once.isZero(0);
+  if (!corrects && lasting.isZero(0)) return;
   for (int b = 0; b < C::kBodies; ++b) {
     const BodyId id = item.bodies[b];
-    if constexpr (C::kLinear) {
-      const Vec3 dx = response.linear[b].lazyProduct(change);
-      bodies.pose[id].x += dx;
-      bodies.shift[id] += dx;
+    Vec3 dx = Vec3::Zero(), turn = response.angular[b].lazyProduct(lasting);
+    if constexpr (C::kLinear) dx = response.linear[b].lazyProduct(lasting);
+    bodies.shift[id] += dx;
+    if (corrects) {
+      Vec3 dxOnce = Vec3::Zero();
+      if constexpr (C::kLinear) dxOnce = response.linear[b].lazyProduct(once);
+      const Vec3 turnOnce = response.angular[b].lazyProduct(once);
+      bodies.correction[id].dx += dxOnce;
+      bodies.correction[id].dtheta += turnOnce;
+      dx += dxOnce;
+      turn += turnOnce;
     }
-    const Vec3 turn = response.angular[b].lazyProduct(change);
-    bodies.pose[id].q = exponential(turn) * bodies.pose[id].q;
+    displace(bodies.pose[id], dx, turn);
   }
 }
 
@@ -102,7 +128,8 @@ void clampTotal(Vector& total, double low, double high, double longest) {
   total = total.cwiseMax(low).cwiseMin(high);
   if (std::isfinite(longest)) {
     const double length = total.norm();
-    if (length > longest) total *= longest / length;  // (132) by length, then the difference is applied
+    if (length > longest)
+      total *= longest / length;  // (132) by length, then the difference is applied
   }
 }
 
@@ -123,9 +150,32 @@ Eigen::Matrix<double, R, 1> step(Eigen::Matrix<double, R, R> a, double alpha, do
   }
 }
 
-// One visit to one constraint. Returns false when the change is not finite (nothing is applied then).
+// J dX of a correction.
 template <class C>
-bool solve(const C& item, typename Set<C>::Vector& total, const typename Set<C>::Tuned& tuned,
+typename Set<C>::Vector along(const C& item, const Row<C::kBodies, C::kRows>& row,
+                              std::span<const Correction> correction) {
+  typename Set<C>::Vector sum = Set<C>::Vector::Zero();
+  for (int b = 0; b < C::kBodies; ++b) {
+    const Correction& moved = correction[item.bodies[b]];
+    if constexpr (C::kLinear) sum += row.linear[b].lazyProduct(moved.dx);
+    sum += row.angular[b].lazyProduct(moved.dtheta);
+  }
+  return sum;
+}
+
+// The part of an error at X^t that is wrong: all of an equality's, the violated side of a bound's.
+template <class C>
+typename Set<C>::Vector standingError(const Row<C::kBodies, C::kRows>& row) {
+  if (row.high <= 0) return row.c.cwiseMax(0);
+  if (row.low >= 0) return row.c.cwiseMin(0);
+  return row.c;
+}
+
+// Splits a visit's error into what the motion of this substep made (solved by `total`, which lasts)
+// and what stood at its start (solved by `once`, which is forgotten, and moves bodies without
+// speeding them).
+template <class C>
+bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
            Bodies& bodies, double dt) {
   Row<C::kBodies, C::kRows> row;
   item.evaluate({bodies.pose, bodies.start, dt}, row);
@@ -135,27 +185,41 @@ bool solve(const C& item, typename Set<C>::Vector& total, const typename Set<C>:
   const double mean = a.trace() / C::kRows;
   if (!(mean > 1e-300)) return mean == mean;  // nothing here can move
   const double alpha = row.alpha + tuned.regularisation * mean;
-  const typename Set<C>::Vector residual = row.c + alpha * total;
-  typename Set<C>::Vector next =
-      total + step<C::kRows>(a, alpha, tuned.relaxation, formOf(item), residual);
-  clampTotal(next, row.low, row.high, row.longest);
-  const typename Set<C>::Vector change = next - total;
-  if (!change.allFinite()) return false;
-  total = next;
-  if (change.isZero(0)) return true;
-  displaceBodies(item, response, change, bodies);
+  using Vector = typename Set<C>::Vector;
+  const auto change = [&](const Vector& c, const Vector& total) -> Vector {
+    const Vector residual = c + alpha * total;
+    Vector next = total + step<C::kRows>(a, alpha, tuned.relaxation, formOf(item), residual);
+    clampTotal(next, row.low, row.high, row.longest);
+    return next - total;
+  };
+  Vector once = Vector::Zero();
+  if (tuned.split) {
+    const Vector standing = lambda.standing + along(item, row, bodies.correction);
+    once = change(standing, lambda.once);
+    row.c -= standing;
+  }
+  const Vector lasting = change(row.c, lambda.total);
+  if (!once.allFinite() || !lasting.allFinite()) return false;
+  lambda.once += once;
+  lambda.total += lasting;
+  displaceBodies(item, response, once, lasting, bodies);
   return true;
 }
 
-// Applies the multipliers that the last substep ended with, as a first guess of this one's.
+// Start of a substep: what stands wrong at X^t, and the last multipliers as a first guess.
 template <class C>
-void warmStart(const C& item, const typename Set<C>::Vector& total, Bodies& bodies, double dt) {
-  if (total.isZero(0)) return;
+void prepare(const C& item, Multipliers<C>& lambda, bool warm, bool split, Bodies& bodies,
+             double dt) {
+  lambda.once.setZero();
+  if (!warm) lambda.total.setZero();
+  if (!split && lambda.total.isZero(0)) return;
   Row<C::kBodies, C::kRows> row;
-  item.evaluate({bodies.pose, bodies.start, dt}, row);
+  item.evaluate({bodies.start, bodies.start, dt}, row);
+  lambda.standing = standingError<C>(row);
+  if (lambda.total.isZero(0)) return;
   Response<C> response;
   resistance(item, row, bodies.inverse, response);
-  displaceBodies(item, response, total, bodies);
+  displaceBodies(item, response, Set<C>::Vector::Zero(), lambda.total, bodies);
 }
 
 }  // namespace physics

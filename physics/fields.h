@@ -1,6 +1,6 @@
 // The one list of parameters per kind: `static void fields(V& v, Def& d)` in each definition calls
-// v(Field, member) for every member in a fixed order. The scene reader, the scene writer and the generic
-// tests all walk it.
+// v(Field, member) for every member in a fixed order. The scene reader, the scene writer and the
+// generic tests all walk it.
 #pragma once
 
 #include <array>
@@ -35,8 +35,9 @@ struct Field {
   double high = std::numeric_limits<double>::infinity();
 };
 
-// What a member may be: std::array<BodyId, 2>, Vec3, std::array<Vec3, 2>, double, std::array<double, 2>
-// (an ordered pair low <= high), std::optional of these, bool, Quat, or an enum with a `names(E)` overload.
+// What a member may be: std::array<BodyId, 2>, Vec3, std::array<Vec3, 2>, double,
+// std::array<double, 2> (an ordered pair low <= high), std::optional of these, bool, Quat, or an
+// enum with a `names(E)` overload.
 enum class Form { kVector, kScalar };  // the resistance: full matrix (73) or along the error (63)
 inline std::span<const char* const> names(Form) {
   static constexpr const char* kNames[] = {"vector", "scalar"};
@@ -45,8 +46,9 @@ inline std::span<const char* const> names(Form) {
 
 // Per-constraint tuning; absent: the World's.
 struct Tuning {
-  std::optional<double> relaxation;      // xi of (53), 0 < xi < 2
-  std::optional<double> regularisation;  // epsilon: alpha = epsilon * J M^-1 J^T, >= 0 (54); NOTES 3.5
+  std::optional<double> relaxation;  // xi of (53), 0 < xi < 2
+  std::optional<double>
+      regularisation;  // epsilon: alpha = epsilon * J M^-1 J^T, >= 0 (54); NOTES 3.5
   template <class V, class T>
   static void fields(V& v, T& d) {
     v(Field{"relaxation", Unit::kNone, false, 0.01, 1.99}, d.relaxation);

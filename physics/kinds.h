@@ -22,15 +22,15 @@ struct Kind {
   Set<C> set;
 };
 
-using Kinds = std::tuple<                //
-    Kind<SpringDef, Spring>,             //
-    Kind<DriveDef, Drive>,               //
-    Kind<MotorDef, Motor>,               //
-    Kind<DistanceDef, Distance>,         //
-    Kind<ConeLimitDef, ConeLimit>,       //
-    Kind<TwistLimitDef, TwistLimit>,     //
-    Kind<AxleDef, Axle>,                 //
-    Kind<BallSocketDef, BallSocket>>;    //
+using Kinds = std::tuple<              //
+    Kind<SpringDef, Spring>,           //
+    Kind<DriveDef, Drive>,             //
+    Kind<MotorDef, Motor>,             //
+    Kind<DistanceDef, Distance>,       //
+    Kind<ConeLimitDef, ConeLimit>,     //
+    Kind<TwistLimitDef, TwistLimit>,   //
+    Kind<AxleDef, Axle>,               //
+    Kind<BallSocketDef, BallSocket>>;  //
 
 template <class F>
 void forEachKind(Kinds& kinds, F&& f) {

@@ -16,7 +16,8 @@ Measures measure(const World& world) {
     m.kinetic += 0.5 * b.mass[i] * velocity.v.squaredNorm() + 0.5 * velocity.w.dot(spin);
     m.linearMomentum += b.mass[i] * velocity.v;
     m.angularMomentum += b.mass[i] * b.pose[i].x.cross(velocity.v) + spin;
-    if (world.settings().gravity) m.potential -= b.mass[i] * b.pose[i].x.dot(*world.settings().gravity);
+    if (world.settings().gravity)
+      m.potential -= b.mass[i] * b.pose[i].x.dot(*world.settings().gravity);
   }
   m.potential += world.springEnergy();
   return m;

@@ -8,8 +8,8 @@
 namespace physics {
 
 struct Measures {
-  double kinetic = 0, potential = 0;   // J; potential: gravity about the origin, and springs
-  Vec3 linearMomentum = Vec3::Zero();  // kg m/s, dynamic bodies
+  double kinetic = 0, potential = 0;    // J; potential: gravity about the origin, and springs
+  Vec3 linearMomentum = Vec3::Zero();   // kg m/s, dynamic bodies
   Vec3 angularMomentum = Vec3::Zero();  // about the origin [kg m^2/s]
   double total() const { return kinetic + potential; }
 };

@@ -55,15 +55,20 @@ constexpr double kSmallAngleSquared = 1e-2;  // below: five terms are exact to 1
 }  // namespace
 
 SineCosine sineCosine(double angle) {
-  constexpr double kHalfPiHigh = 1.57079632679489655800e+00, kHalfPiLow = 6.12323399573676603587e-17;
+  constexpr double kHalfPiHigh = 1.57079632679489655800e+00,
+                   kHalfPiLow = 6.12323399573676603587e-17;
   const double k = std::nearbyint(angle * (2 / kPi));
   const double r = (angle - k * kHalfPiHigh) - k * kHalfPiLow;
   const double s = sineReduced(r), c = cosineReduced(r);
   switch (static_cast<long long>(k) & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 
@@ -96,11 +101,13 @@ Vec3 logarithm(const Quat& q) {
   const double w = sign * q.w();
   const Vec3 v = sign * q.vec();
   const double squared = v.squaredNorm();
-  if (squared < 0.25 * kSmallAngleSquared) {  // asin series; w = sqrt(1 - |v|^2) for a unit quaternion
+  if (squared <
+      0.25 * kSmallAngleSquared) {  // asin series; w = sqrt(1 - |v|^2) for a unit quaternion
     const double factor =
         2 * (1 + squared / 6 *
                      (1 + squared * 9 / 20 *
-                              (1 + squared * 25 / 42 * (1 + squared * 49 / 72 * (1 + squared * 81 / 110)))));
+                              (1 + squared * 25 / 42 *
+                                       (1 + squared * 49 / 72 * (1 + squared * 81 / 110)))));
     return factor * v;
   }
   const double sine = std::sqrt(squared);

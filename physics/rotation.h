@@ -1,5 +1,6 @@
-// Rotations: exponential and logarithm of quaternions, and the few transcendental functions that reach the
-// state. They are our own so that every x86-64 gives the same bits (the C library picks variants by CPU).
+// Rotations: exponential and logarithm of quaternions, and the few transcendental functions that
+// reach the state. They are our own so that every x86-64 gives the same bits (the C library picks
+// variants by CPU).
 #pragma once
 
 #include "physics/types.h"
@@ -9,8 +10,8 @@ namespace physics {
 struct SineCosine {
   double sine, cosine;
 };
-SineCosine sineCosine(double angle);       // |angle| < 1e6, error < 2e-16
-double arcTangent(double y, double x);     // atan2, in (-pi, pi], error < 3e-16
+SineCosine sineCosine(double angle);    // |angle| < 1e6, error < 2e-16
+double arcTangent(double y, double x);  // atan2, in (-pi, pi], error < 3e-16
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -38,8 +39,8 @@ Vec3 anyNormalTo(const Vec3& n);
 // The angle from n_i to n_j and the axis it turns about: phi w = directed angle error.   (80),(82)
 // Parallel: phi = 0 and w is normal to n_i; antiparallel: phi = pi, any w normal to n_i.
 struct AngleBetween {
-  double phi = 0;              // rad, 0..pi
-  Vec3 w = Vec3::UnitX();      // unit
+  double phi = 0;          // rad, 0..pi
+  Vec3 w = Vec3::UnitX();  // unit
 };
 AngleBetween angleBetween(const Vec3& ni, const Vec3& nj);
 

@@ -18,11 +18,11 @@ struct Box {
 struct Sphere {
   double radius = 0.5;  // m
 };
-struct Capsule {  // along y
+struct Capsule {         // along y
   double radius = 0.25;  // m
   double length = 0.5;   // between the cap centres [m]
 };
-struct Cylinder {  // along y
+struct Cylinder {        // along y
   double radius = 0.25;  // m
   double length = 0.5;   // m
 };
@@ -58,9 +58,9 @@ struct MassProperties {
 };
 MassProperties massProperties(const Shape& shape);
 
-// A hull around `points` (>= 4, not in one plane; throws std::invalid_argument otherwise), moved so that
-// its centre of mass is the origin and its principal axes are the frame's. `toPoints` takes the hull
-// back to where the points were. Axes stay as they are when they are principal already.
+// A hull around `points` (>= 4, not in one plane; throws std::invalid_argument otherwise), moved so
+// that its centre of mass is the origin and its principal axes are the frame's. `toPoints` takes
+// the hull back to where the points were. Axes stay as they are when they are principal already.
 struct PrincipalHull {
   std::shared_ptr<const Hull> hull;
   Pose toPoints;

@@ -34,7 +34,8 @@ void findContactsAhead(World::Impl& w, double remaining) {
 
 void solveConstraints(World::Impl& w, double h, StepReport& report) {
   nonlinearGaussSeidel(w, h, report);
-  // A body that was hit may have left the bounds in which contacts were looked for: look where it went.
+  // A body that was hit may have left the bounds in which contacts were looked for: look where it
+  // went.
   for (int look = 1; look < kMostLooks && !report.notFinite && contactsOutdated(w); ++look) {
     findContacts(w, w.bodies.pose);
     for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
@@ -46,7 +47,8 @@ void checkFinite(const World::Impl& w, StepReport& report) {
   for (int i = 0; i < w.bodies.size() && !report.notFinite; ++i) {
     const Pose& pose = w.bodies.pose[i];
     const Velocity& velocity = w.bodies.velocity[i];
-    if (!std::isfinite(pose.x.sum() + pose.q.coeffs().sum() + velocity.v.sum() + velocity.w.sum())) {
+    if (!std::isfinite(pose.x.sum() + pose.q.coeffs().sum() + velocity.v.sum() +
+                       velocity.w.sum())) {
       report.notFinite = {report.substeps, i, ""};
     }
   }
@@ -65,7 +67,7 @@ void restore(World::Impl& w) {
   w.bodies.velocity = w.last.velocity;
   w.contacts.pairs.clear();
   forEachKind(w.kinds, [](auto& kind) {
-    for (auto& total : kind.set.total) total.setZero();
+    for (auto& lambda : kind.set.lambda) lambda = {};
   });
 }
 
@@ -85,9 +87,9 @@ StepReport World::step() {
     if (w.settings.contact && (k == 0 || contactsOutdated(w))) {
       findContactsAhead(w, w.settings.dt - (k + 1) * h);
     }
-    prepareConstraints(w, h);       // multipliers of the last substep, gaps and anchors at X^t
-    solveConstraints(w, h, report); // Delta X (52),(53)
-    finish(w, h);                   // (43)-(46)
+    prepareConstraints(w, h);        // multipliers of the last substep, gaps and anchors at X^t
+    solveConstraints(w, h, report);  // Delta X (52),(53)
+    finish(w, h);                    // (43)-(46)
     checkFinite(w, report);
     ++report.substeps;
   }

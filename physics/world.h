@@ -25,9 +25,9 @@ enum class Stepping { kPaper };
 
 struct ContactSettings {
   Friction friction;
-  double restitution = 0;            // 0..1
-  double maxSeparationSpeed = 1;     // v_max: overlap that exists already is resolved no faster [m/s]
-  double margin = 0.02;              // gaps below this are watched at rest [m]
+  double restitution = 0;         // 0..1
+  double maxSeparationSpeed = 1;  // v_max: overlap that exists already is resolved no faster [m/s]
+  double margin = 0.02;           // gaps below this are watched at rest [m]
 };
 
 struct Settings {
@@ -38,7 +38,9 @@ struct Settings {
   Stepping stepping = Stepping::kPaper;
   double relaxation = 1;      // xi (53)
   double regularisation = 0;  // epsilon, alpha = epsilon * J M^-1 J^T (54)
-  bool warmStart = true;      // start from the last substep's multipliers
+  bool warmStart = true;      // contacts start from the last substep's multipliers
+  bool warmStartJoints =
+      false;  // and so do joints: better at rest, but violent motion may gain energy
   std::optional<Vec3> gravity;             // m/s^2; absent: none
   std::optional<ContactSettings> contact;  // absent: nothing touches
 };
@@ -84,13 +86,14 @@ struct JointReport {
 
 class World {
  public:
-  explicit World(const Settings& settings = {});  // throws std::invalid_argument on senseless settings
+  explicit World(
+      const Settings& settings = {});  // throws std::invalid_argument on senseless settings
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  // Bodies and constraints are added before the first step. Each throws std::invalid_argument with the
-  // reason when a value makes no sense. A constraint's index counts within its kind.
+  // Bodies and constraints are added before the first step. Each throws std::invalid_argument with
+  // the reason when a value makes no sense. A constraint's index counts within its kind.
   BodyId add(const BodyDef& def);
   int add(const BallSocketDef& def);
   int add(const AxleDef& def);
@@ -100,15 +103,18 @@ class World {
   int add(const SpringDef& def);
   int add(const DriveDef& def);
   int add(const MotorDef& def);
-  void ignoreCollision(BodyId a, BodyId b);  // joints do this for their bodies unless they `collide`
+  void ignoreCollision(BodyId a,
+                       BodyId b);  // joints do this for their bodies unless they `collide`
 
   // Moves everything by settings().dt.
   StepReport step();
 
   // Between steps:
   void setVelocity(BodyId body, const Velocity& velocity);
-  void setDriveTarget(int drive, const Quat& target);  // orientation of bodies[1] in bodies[0]'s frame
-  void applyForce(BodyId body, const Vec3& force, const Vec3& torque);  // for the next step only [N, N m]
+  void setDriveTarget(int drive,
+                      const Quat& target);  // orientation of bodies[1] in bodies[0]'s frame
+  void applyForce(BodyId body, const Vec3& force,
+                  const Vec3& torque);  // for the next step only [N, N m]
 
   const Settings& settings() const;
   std::int64_t stepCount() const;
@@ -118,9 +124,9 @@ class World {
   std::vector<KindError> constraintErrors() const;  // one per kind present, in the table's order
   std::vector<ContactReport> contacts() const;      // gap <= margin
   std::vector<JointReport> joints() const;
-  double largestOverlap() const;  // m, over the contacts at the present poses; >= 0
-  int contactCount() const;       // points that carry an impulse
-  double springEnergy() const;    // J, of springs and drives
+  double largestOverlap() const;      // m, over the contacts at the present poses; >= 0
+  int contactCount() const;           // points that carry an impulse
+  double springEnergy() const;        // J, of springs and drives
   Vec3 driveTorque(int drive) const;  // on bodies[1], last substep [N m]
 
   struct Impl;

@@ -56,9 +56,10 @@ int append(World::Impl& w, const D& def, const C& item) {
   forEachKind(w.kinds, [&](auto& kind) {
     if constexpr (std::is_same_v<typename std::decay_t<decltype(kind)>::Item, C>) {
       kind.set.items.push_back(item);
-      kind.set.total.push_back(Set<C>::Vector::Zero());
+      kind.set.lambda.emplace_back();
       kind.set.tuned.push_back({def.tuning.relaxation.value_or(w.settings.relaxation),
-                                def.tuning.regularisation.value_or(w.settings.regularisation)});
+                                def.tuning.regularisation.value_or(w.settings.regularisation),
+                                w.settings.warmStartJoints && !isForce<C>()});
       index = static_cast<int>(kind.set.items.size()) - 1;
     }
   });
@@ -121,9 +122,10 @@ BodyId World::add(const BodyDef& def) {
   Bodies& b = w.bodies;
   const BodyId id = b.size();
   const bool dynamic = def.motion == Motion::kDynamic;
-  const Vec3 inertia = dynamic && !isPoint(def.shape)
-                           ? def.inertia.value_or(def.mass * massProperties(def.shape).inertiaPerMass)
-                           : Vec3::Zero().eval();
+  const Vec3 inertia =
+      dynamic && !isPoint(def.shape)
+          ? def.inertia.value_or(def.mass * massProperties(def.shape).inertiaPerMass)
+          : Vec3::Zero().eval();
   const Vec3 inverse = inertia.unaryExpr([](double i) { return i > 0 ? 1 / i : 0.0; });
   b.pose.push_back({def.pose.x, def.pose.q.normalized()});
   b.start.push_back(b.pose.back());
@@ -134,6 +136,7 @@ BodyId World::add(const BodyDef& def) {
   b.mass.push_back(dynamic ? def.mass : 0);
   b.motion.push_back(def.motion);
   b.shift.push_back(Vec3::Zero());
+  b.correction.emplace_back();
   b.freeTurn.push_back(Vec3::Zero());
   b.shape.push_back(def.shape);
   const Friction standard = w.settings.contact ? w.settings.contact->friction : Friction{};
@@ -193,8 +196,7 @@ int World::add(const SpringDef& def) {
   require(def.stiffness >= 0 && def.damping >= 0, "stiffness and damping must not be negative");
   const double rest = def.restLength.value_or(startDistance(*impl_, def.bodies, def.anchors));
   require(std::isfinite(rest) && rest >= 0, "a rest length must not be negative");
-  return append(*impl_, def,
-                Spring{def.bodies, def.anchors, def.stiffness, def.damping, rest});
+  return append(*impl_, def, Spring{def.bodies, def.anchors, def.stiffness, def.damping, rest});
 }
 
 int World::add(const DriveDef& def) {

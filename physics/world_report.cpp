@@ -13,16 +13,9 @@ double sizeOfError(const C& item, const World::Impl& w) {
   Row<C::kBodies, C::kRows> row;
   item.evaluate({w.bodies.pose, w.bodies.start, w.substepLength()}, row);
   const double size = row.c.norm();
-  if (std::isfinite(row.high) && row.high <= 0) return std::max(row.c[0], 0.0);   // c <= 0 holds
-  if (std::isfinite(row.low) && row.low >= 0) return std::max(-row.c[0], 0.0);  // c >= 0 holds
+  if (std::isfinite(row.high) && row.high <= 0) return std::max(row.c[0], 0.0);  // c <= 0 holds
+  if (std::isfinite(row.low) && row.low >= 0) return std::max(-row.c[0], 0.0);   // c >= 0 holds
   return size;
-}
-
-// Springs, drives and motors are forces: they have no error.
-template <class K>
-constexpr bool isForce() {
-  return std::is_same_v<typename K::Item, Spring> || std::is_same_v<typename K::Item, Drive> ||
-         std::is_same_v<typename K::Item, Motor>;
 }
 
 }  // namespace
@@ -53,14 +46,14 @@ Vec3 World::driveTorque(int drive) const {
   const auto& set = std::get<Kind<DriveDef, Drive>>(impl_->kinds).set;
   require(drive >= 0 && drive < static_cast<int>(set.items.size()), "no such drive");
   const double h = impl_->substepLength();
-  return set.total[drive] / (h * h);
+  return set.lambda[drive].total / (h * h);
 }
 
 std::vector<KindError> World::constraintErrors() const {
   std::vector<KindError> errors;
   forEachKind(impl_->kinds, [&](const auto& kind) {
     using K = std::decay_t<decltype(kind)>;
-    if (isForce<K>() || kind.set.items.empty()) return;
+    if (isForce<typename K::Item>() || kind.set.items.empty()) return;
     KindError error{K::kWord, K::Item::kUnit, 0, static_cast<int>(kind.set.items.size()), 0};
     for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
       const double size = sizeOfError(kind.set.items[k], *impl_);
@@ -102,7 +95,7 @@ std::vector<JointReport> World::joints() const {
       }
       if constexpr (requires { item.axisI; }) joint.axis = a.q * item.axisI;
       if constexpr (requires { item.axes; }) joint.axis = a.q * item.axes[0];
-      if constexpr (!isForce<K>()) joint.error = sizeOfError(item, *impl_);
+      if constexpr (!isForce<typename K::Item>()) joint.error = sizeOfError(item, *impl_);
       reports.push_back(joint);
     }
   });

@@ -4,8 +4,8 @@
 namespace physics {
 
 // In the frame (u, v, n_j) of body j let m = n_i, s = |(m_u, m_v)|, phi = atan2(s, m_n), f = phi/s.
-// Then n_i x n_j = (m_v, -m_u, 0) and c = f (m_v, -m_u). A relative rotation d (of i against j) moves m by
-// d x m, and phi by -w.d; f moves by (dphi - f ds)/s with ds = (m_u dm_u + m_v dm_v)/s.
+// Then n_i x n_j = (m_v, -m_u, 0) and c = f (m_v, -m_u). A relative rotation d (of i against j)
+// moves m by d x m, and phi by -w.d; f moves by (dphi - f ds)/s with ds = (m_u dm_u + m_v dm_v)/s.
 void Axle::evaluate(const Configuration& x, Row<kBodies, kRows>& row) const {
   const Mat3 frame = x.now[bodies[1]].q.toRotationMatrix() * frameJ;  // columns u, v, n_j
   const Vec3 m = frame.transpose() * (x.now[bodies[0]].q * axisI);

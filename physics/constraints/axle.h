@@ -1,7 +1,7 @@
 // Axle: axis n_i of body i stays parallel to axis n_j of body j.
-//   e = phi w,  phi = atan2(|n_i x n_j|, n_i . n_j),  w = n_i x n_j / |n_i x n_j|           (80),(82)
-//   c = components of e along two axes u, v normal to n_j and fixed in body j [rad], |c| = phi
-//   scalar form: dphi/dtheta_i = -w, dphi/dtheta_j = +w                          (81), signs corrected
+//   e = phi w,  phi = atan2(|n_i x n_j|, n_i . n_j),  w = n_i x n_j / |n_i x n_j| (80),(82) c =
+//   components of e along two axes u, v normal to n_j and fixed in body j [rad], |c| = phi scalar
+//   form: dphi/dtheta_i = -w, dphi/dtheta_j = +w                          (81), signs corrected
 //   parallel: c = 0, J is regular; antiparallel: any w normal to n_i serves, e has length pi.
 #pragma once
 
@@ -34,7 +34,7 @@ struct Axle {
   static constexpr bool kLinear = false;
   static constexpr const char* kUnit = "rad";
   std::array<BodyId, 2> bodies{};
-  Vec3 axisI = Vec3::UnitX();  // body frame of i
+  Vec3 axisI = Vec3::UnitX();      // body frame of i
   Mat3 frameJ = Mat3::Identity();  // columns u, v, n_j in the body frame of j
   Form form = Form::kVector;
 

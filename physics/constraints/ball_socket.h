@@ -1,7 +1,8 @@
 // Ball and socket: point p_i of body i and point p_j of body j coincide.
 //   c = dp = p_i - p_j [m]   dc/dx_i = 1, dc/dtheta_i = -[r_i]x, opposite for j        (71)-(73)
-//   The scalar form (61)-(68) has the same c and J, and the resistance along dp only: its impulse is
-//   parallel to dp, so that it turns nothing even while the joint is open (5.1). At dp = 0 both do nothing.
+//   The scalar form (61)-(68) has the same c and J, and the resistance along dp only: its impulse
+//   is parallel to dp, so that it turns nothing even while the joint is open (5.1). At dp = 0 both
+//   do nothing.
 #pragma once
 
 #include "physics/constraint.h"
@@ -12,7 +13,7 @@ namespace physics {
 struct BallSocketDef {
   static constexpr const char* kWord = "ball_socket";
   std::array<BodyId, 2> bodies{};
-  Vec3 at = Vec3::Zero();          // both points, world coordinates at the start
+  Vec3 at = Vec3::Zero();                      // both points, world coordinates at the start
   std::optional<std::array<Vec3, 2>> anchors;  // instead of `at`: each in its body's frame
   Form form = Form::kVector;
   bool collide = false;  // the two bodies may touch

@@ -1,7 +1,8 @@
 // Cone limit: the angle between axis n_i of body i and axis n_j of body j stays within phi_l.
-//   c = phi - phi_l <= 0 [rad], phi = atan2(|n_i x n_j|, n_i . n_j)                (88), with n for w
-//   dc/dtheta_i = -w, dc/dtheta_j = +w; the total multiplier is clamped to <= 0     (89),(90) corrected
-//   parallel: far inside any cone but the zero one, no direction needed; antiparallel: any w normal to n_i.
+//   c = phi - phi_l <= 0 [rad], phi = atan2(|n_i x n_j|, n_i . n_j)                (88), with n for
+//   w dc/dtheta_i = -w, dc/dtheta_j = +w; the total multiplier is clamped to <= 0     (89),(90)
+//   corrected parallel: far inside any cone but the zero one, no direction needed; antiparallel:
+//   any w normal to n_i.
 #pragma once
 
 #include "physics/constraint.h"

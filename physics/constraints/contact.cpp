@@ -37,8 +37,7 @@ ContactPair fromManifold(const Manifold& manifold, const Bodies& bodies) {
   const Shape &a = bodies.shape[pair.a], &b = bodies.shape[pair.b];
   pair.radial = isBall(a) && isBall(b);
   pair.carried = hasFaces(b);
-  pair.normal =
-      pair.carried ? manifold.normal : Vec3(bodies.pose[pair.b].q * manifold.normal);
+  pair.normal = pair.carried ? manifold.normal : Vec3(bodies.pose[pair.b].q * manifold.normal);
   const Friction &fa = bodies.friction[pair.a], &fb = bodies.friction[pair.b];
   pair.friction.staticCoefficient = geometricMean(fa.staticCoefficient, fb.staticCoefficient);
   pair.friction.dynamicCoefficient = geometricMean(fa.dynamicCoefficient, fb.dynamicCoefficient);

@@ -1,4 +1,5 @@
 // Contact: the solve of one manifold.
+#include <algorithm>
 #include <cmath>
 
 #include "physics/constraints/contact.h"
@@ -7,29 +8,43 @@
 namespace physics {
 namespace {
 
-// What one visit to a pair works on. Impulses on b are the opposite of those on a, at the same point.
+// Impulses, times h^2, on a at points of contact, and the turn they give a; b gets the opposite: it
+// moves by -impulse/m_b and turns by -turnB.
+struct Push {
+  Vec3 impulse = Vec3::Zero();
+  Vec3 turnA = Vec3::Zero(), turnB = Vec3::Zero();
+};
+
+// What one visit to a pair works on.
 struct Visit {
   Vec3 n, t1, t2;
   Mat3 rotationA, rotationB;
-  double inverseMass;                                     // 1/m_a + 1/m_b
-  Vec3 impulse = Vec3::Zero();                            // sum on a, times h^2
-  Vec3 turnA = Vec3::Zero(), turnB = Vec3::Zero();        // rotations so far in this visit
-  std::array<Vec3, Manifold::kMaxPoints> armA, armB;      // p_a from either centre
+  double inverseMass;  // 1/m_a + 1/m_b
+  Push lasting, once;  // of this visit: of the motion, and of what stood wrong at the start
+  Vec3 correctionX, correctionA, correctionB;  // corrections before this visit, b against a; turns
+  bool corrects = false;                       // something stood wrong here, or nearby
+  std::array<Vec3, Manifold::kMaxPoints> armA, armB;  // p_a from either centre
   std::array<double, Manifold::kMaxPoints> gap;
 };
 
+constexpr double kNoError = 1e-10;  // m; overlaps below this are rounding
+
 Visit beginVisit(const ContactPair& pair, const Bodies& bodies) {
   Visit visit;
-  const Pose &a = bodies.pose[pair.a], &b = bodies.pose[pair.b];
-  visit.rotationA = a.q.toRotationMatrix();
-  visit.rotationB = b.q.toRotationMatrix();
-  visit.n = normalOf(pair, bodies.pose);
+  visit.rotationA = bodies.pose[pair.a].q.toRotationMatrix();
+  visit.rotationB = bodies.pose[pair.b].q.toRotationMatrix();
+  visit.n = pair.carried ? Vec3(visit.rotationB * pair.normal) : normalOf(pair, bodies.pose);
   visit.inverseMass = bodies.inverse[pair.a].m + bodies.inverse[pair.b].m;
+  const Correction &a = bodies.correction[pair.a], &b = bodies.correction[pair.b];
+  visit.correctionX = a.dx - b.dx;
+  visit.correctionA = a.dtheta;
+  visit.correctionB = b.dtheta;
+  visit.corrects = !(visit.correctionX.isZero(0) && a.dtheta.isZero(0) && b.dtheta.isZero(0));
   return visit;
 }
 
 // c of (91) at the present poses; true when some row has work to do.
-bool evaluateGaps(const ContactPair& pair, const Bodies& bodies, double allowance, Visit& visit) {
+bool evaluateGaps(const ContactPair& pair, const Bodies& bodies, Visit& visit) {
   const Vec3 between = bodies.pose[pair.a].x - bodies.pose[pair.b].x;
   bool active = false;
   for (int k = 0; k < pair.count; ++k) {
@@ -38,34 +53,64 @@ bool evaluateGaps(const ContactPair& pair, const Bodies& bodies, double allowanc
     visit.armB[k] = visit.armA[k] + between;
     const Vec3 matter = visit.rotationB * (pair.radial ? p.shape.coreB : p.anchorB);
     const double offset = pair.radial ? -p.shape.radiusB : p.gapAtStart;
-    double c = (visit.armB[k] - matter).dot(visit.n) + offset;
-    const double overlap = -p.gapAtStart;  // of this, at most `allowance` is resolved now; NOTES 3.3
-    if (overlap > allowance) c += overlap - allowance;
-    visit.gap[k] = c;
-    active = active || c < 0 || p.normalTotal > 0;
+    visit.gap[k] = (visit.armB[k] - matter).dot(visit.n) + offset;
+    visit.corrects = visit.corrects || p.gapAtStart < -kNoError;
+    active = active || visit.gap[k] < 0 || p.normalTotal > 0;
   }
   return active;
 }
 
-// Velocity-free form of a row's motion: J dX along d at point k, for what this visit has done so far.
-double moved(const Visit& visit, const Vec3& d, const Vec3& armCrossA, const Vec3& armCrossB) {
-  return visit.inverseMass * visit.impulse.dot(d) + armCrossA.dot(visit.turnA) -
-         armCrossB.dot(visit.turnB);
+// One direction at one point: J, M^-1 J^T and A.
+struct Direction {
+  Vec3 d, a, b, wa, wb;
+  double resistance;
+};
+
+Direction directionAt(const Visit& visit, int k, const Vec3& d, const Bodies& bodies,
+                      const ContactPair& pair) {
+  Direction row;
+  row.d = d;
+  row.a = visit.armA[k].cross(d);
+  row.b = visit.armB[k].cross(d);
+  row.wa = bodies.inverse[pair.a].inertia * row.a;
+  row.wb = bodies.inverse[pair.b].inertia * row.b;
+  row.resistance = visit.inverseMass + row.a.dot(row.wa) + row.b.dot(row.wb);
+  return row;
 }
 
-void solveNormal(ContactPointState& p, int k, const Bodies& bodies, BodyId a, BodyId b, double xi,
-                 Visit& visit) {
-  const Vec3 na = visit.armA[k].cross(visit.n), nb = visit.armB[k].cross(visit.n);
-  const Vec3 wa = bodies.inverse[a].inertia * na, wb = bodies.inverse[b].inertia * nb;
-  const double resistance = visit.inverseMass + na.dot(wa) + nb.dot(wb);  // 1/mu (93)
-  if (!(resistance > 1e-300)) return;
-  const double c = visit.gap[k] + moved(visit, visit.n, na, nb);
-  const double next = std::max(p.normalTotal - xi * c / resistance, 0.0);  // (95) on the total
-  const double change = next - p.normalTotal;
+// J dX of a push, and of the corrections made before this visit.
+double moved(const Visit& visit, const Direction& row, const Push& push) {
+  return visit.inverseMass * push.impulse.dot(row.d) + row.a.dot(push.turnA) +
+         row.b.dot(push.turnB);
+}
+double corrected(const Visit& visit, const Direction& row) {
+  return row.d.dot(visit.correctionX) + row.a.dot(visit.correctionA) - row.b.dot(visit.correctionB);
+}
+
+void add(Push& push, const Direction& row, double change) {
+  push.impulse += change * row.d;
+  push.turnA += change * row.wa;
+  push.turnB += change * row.wb;
+}
+
+// (95) on the total: lambda <- max(lambda - xi c / A, 0).
+void solveNormal(ContactPointState& p, double gap, const Direction& row, double xi,
+                 double allowance, Visit& visit) {
+  if (!(row.resistance > 1e-300)) return;
+  double c = gap + moved(visit, row, visit.lasting);
+  if (visit.corrects) {
+    const double already = corrected(visit, row);
+    const double standing = std::clamp(p.gapAtStart, -allowance, 0.0) + already;
+    const double error = (p.gapAtStart > 0 ? p.gapAtStart : 0) + standing;
+    const double next =
+        std::max(p.normalOnce - xi * (error + moved(visit, row, visit.once)) / row.resistance, 0.0);
+    add(visit.once, row, next - p.normalOnce);
+    p.normalOnce = next;
+    c -= std::min(p.gapAtStart, 0.0) + already;
+  }
+  const double next = std::max(p.normalTotal - xi * c / row.resistance, 0.0);
+  add(visit.lasting, row, next - p.normalTotal);
   p.normalTotal = next;
-  visit.impulse += change * visit.n;
-  visit.turnA += change * wa;
-  visit.turnB -= change * wb;
 }
 
 // (101): within nu_s N it sticks, beyond it slides with nu_d N.
@@ -76,39 +121,66 @@ bool clampFriction(Vec2& total, const Friction& friction, double normal) {
   return false;
 }
 
-void solveFriction(const ContactPair& pair, ContactPointState& p, int k, const Bodies& bodies,
-                   double xi, Visit& visit) {
-  const Vec3 &ra = visit.armA[k], &rb = visit.armB[k];
-  const Mat3 &ia = bodies.inverse[pair.a].inertia, &ib = bodies.inverse[pair.b].inertia;
-  const Vec3 a1 = ra.cross(visit.t1), a2 = ra.cross(visit.t2);
-  const Vec3 b1 = rb.cross(visit.t1), b2 = rb.cross(visit.t2);
-  const Vec3 wa1 = ia * a1, wa2 = ia * a2, wb1 = ib * b1, wb2 = ib * b2;
-  const double k11 = visit.inverseMass + a1.dot(wa1) + b1.dot(wb1);
-  const double k22 = visit.inverseMass + a2.dot(wa2) + b2.dot(wb2);
-  const double k12 = a1.dot(wa2) + b1.dot(wb2);
-  const double determinant = k11 * k22 - k12 * k12;
-  if (!(determinant > 1e-300)) return;
-  const Vec3 onA = p.shape.radiusA == 0 ? ra : Vec3(visit.rotationA * p.anchorA);
-  const Vec3 dp = p.slip + (rb - ra) + onA - visit.rotationB * p.anchorB;
-  const double c1 = dp.dot(visit.t1) + moved(visit, visit.t1, a1, b1);
-  const double c2 = dp.dot(visit.t2) + moved(visit, visit.t2, a2, b2);
-  const Vec2 before(p.frictionTotal.dot(visit.t1), p.frictionTotal.dot(visit.t2));
-  Vec2 total = before - xi / determinant * Vec2(k22 * c1 - k12 * c2, k11 * c2 - k12 * c1);  // (100)
-  p.sticking = clampFriction(total, pair.friction, p.normalTotal);
-  const Vec2 change = total - before;
-  p.frictionTotal = total.x() * visit.t1 + total.y() * visit.t2;
-  visit.impulse += change.x() * visit.t1 + change.y() * visit.t2;
-  visit.turnA += change.x() * wa1 + change.y() * wa2;
-  visit.turnB -= change.x() * wb1 + change.y() * wb2;
+struct FrictionRows {
+  Direction r1, r2;
+  double k12, determinant;
+};
+
+// One solve of the two rows for error (c1, c2), on `total`; true while it sticks.
+bool solveTangent(const FrictionRows& rows, double c1, double c2, const Friction& friction,
+                  double normal, double xi, Vec3& total, Push& push) {
+  const Vec2 before(total.dot(rows.r1.d), total.dot(rows.r2.d));
+  Vec2 next = before - xi / rows.determinant *
+                           Vec2(rows.r2.resistance * c1 - rows.k12 * c2,
+                                rows.r1.resistance * c2 - rows.k12 * c1);  // (100)
+  const bool sticks = clampFriction(next, friction, normal);
+  total = next.x() * rows.r1.d + next.y() * rows.r2.d;
+  add(push, rows.r1, next.x() - before.x());
+  add(push, rows.r2, next.y() - before.y());
+  return sticks;
 }
 
-void displacePair(const ContactPair& pair, const Vec3& impulse, const Vec3& turnA,
-                  const Vec3& turnB, Bodies& bodies) {
-  const Vec3 dxA = bodies.inverse[pair.a].m * impulse, dxB = -bodies.inverse[pair.b].m * impulse;
-  displace(bodies.pose[pair.a], dxA, turnA);
-  displace(bodies.pose[pair.b], dxB, turnB);
-  bodies.shift[pair.a] += dxA;
-  bodies.shift[pair.b] += dxB;
+void solveFriction(const ContactPair& pair, ContactPointState& p, int k, const Bodies& bodies,
+                   double xi, Visit& visit) {
+  FrictionRows rows{directionAt(visit, k, visit.t1, bodies, pair),
+                    directionAt(visit, k, visit.t2, bodies, pair), 0, 0};
+  rows.k12 = rows.r1.a.dot(rows.r2.wa) + rows.r1.b.dot(rows.r2.wb);
+  rows.determinant = rows.r1.resistance * rows.r2.resistance - rows.k12 * rows.k12;
+  if (!(rows.determinant > 1e-300)) return;
+  const Vec3 onA = p.shape.radiusA == 0 ? visit.armA[k] : Vec3(visit.rotationA * p.anchorA);
+  const Vec3 dp = visit.armB[k] - visit.armA[k] + onA - visit.rotationB * p.anchorB;
+  double c1 = dp.dot(visit.t1) + moved(visit, rows.r1, visit.lasting);
+  double c2 = dp.dot(visit.t2) + moved(visit, rows.r2, visit.lasting);
+  if (visit.corrects || !p.slip.isZero(0)) {
+    const double done1 = corrected(visit, rows.r1), done2 = corrected(visit, rows.r2);
+    solveTangent(rows, p.slip.dot(visit.t1) + done1 + moved(visit, rows.r1, visit.once),
+                 p.slip.dot(visit.t2) + done2 + moved(visit, rows.r2, visit.once), pair.friction,
+                 p.normalTotal, xi, p.frictionOnce, visit.once);
+    c1 -= done1;
+    c2 -= done2;
+  }
+  p.sticking =
+      solveTangent(rows, c1, c2, pair.friction, p.normalTotal, xi, p.frictionTotal, visit.lasting);
+}
+
+void displacePair(const ContactPair& pair, const Push& lasting, const Push& once, bool corrects,
+                  Bodies& bodies) {
+  const double ma = bodies.inverse[pair.a].m, mb = bodies.inverse[pair.b].m;
+  bodies.shift[pair.a] += ma * lasting.impulse;
+  bodies.shift[pair.b] -= mb * lasting.impulse;
+  Push sum = lasting;
+  if (corrects) {
+    Correction &a = bodies.correction[pair.a], &b = bodies.correction[pair.b];
+    a.dx += ma * once.impulse;
+    b.dx -= mb * once.impulse;
+    a.dtheta += once.turnA;
+    b.dtheta -= once.turnB;
+    sum.impulse += once.impulse;
+    sum.turnA += once.turnA;
+    sum.turnB += once.turnB;
+  }
+  displace(bodies.pose[pair.a], ma * sum.impulse, sum.turnA);
+  displace(bodies.pose[pair.b], -mb * sum.impulse, -sum.turnB);
 }
 
 // What a sticking point is off by at the end of the last substep, by its anchors of then.
@@ -141,31 +213,36 @@ void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
   const Vec3 n = normalOf(pair, bodies.start);
   for (int k = 0; k < pair.count; ++k) pair.points[k].slip = slipLeft(pair.points[k], n, a, b);
   measureStart(pair, bodies);
-  Vec3 impulse = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero();
+  Push push;
   for (int k = 0; k < pair.count; ++k) {
     ContactPointState& p = pair.points[k];
-    // The smaller of the last two: an impact is over after one substep and must not be guessed again.
+    // The smaller of the last two: an impact is over after one substep and must not be guessed
+    // again.
     const double first = warm ? std::min(p.normalTotal, p.normalBefore) : 0;
     const double share = p.normalTotal > 0 ? first / p.normalTotal : 0;
     p.normalBefore = p.normalTotal;
     p.normalTotal = first;
     p.frictionTotal = share * (p.frictionTotal - p.frictionTotal.dot(n) * n);
+    p.normalOnce = 0;
+    p.frictionOnce.setZero();
     const Vec3 onA = p.normalTotal * n + p.frictionTotal;
     const Vec3 armA = a.q * p.anchorA;
-    impulse += onA;
-    torqueA += armA.cross(onA);
-    torqueB += (armA + a.x - b.x).cross(onA);
+    push.impulse += onA;
+    push.turnA += armA.cross(onA);
+    push.turnB += (armA + a.x - b.x).cross(onA);
   }
-  if (impulse.isZero(0)) return;
-  displacePair(pair, impulse, bodies.inverse[pair.a].inertia * torqueA,
-               -bodies.inverse[pair.b].inertia * torqueB, bodies);
+  if (push.impulse.isZero(0)) return;
+  push.turnA = bodies.inverse[pair.a].inertia * push.turnA;
+  push.turnB = bodies.inverse[pair.b].inertia * push.turnB;
+  displacePair(pair, push, {}, false, bodies);
 }
 
 bool solve(ContactPair& pair, Bodies& bodies, double xi, double allowance) {
   Visit visit = beginVisit(pair, bodies);
-  if (!evaluateGaps(pair, bodies, allowance, visit)) return true;
+  if (!evaluateGaps(pair, bodies, visit)) return true;
   for (int k = 0; k < pair.count; ++k) {
-    solveNormal(pair.points[k], k, bodies, pair.a, pair.b, xi, visit);
+    const Direction row = directionAt(visit, k, visit.n, bodies, pair);
+    solveNormal(pair.points[k], visit.gap[k], row, xi, allowance, visit);
   }
   if (pair.friction.staticCoefficient > 0) {
     visit.t1 = anyNormalTo(visit.n);
@@ -177,10 +254,11 @@ bool solve(ContactPair& pair, Bodies& bodies, double xi, double allowance) {
       }
     }
   }
-  if (!(visit.impulse.allFinite() && visit.turnA.allFinite() && visit.turnB.allFinite())) {
-    return false;
-  }
-  displacePair(pair, visit.impulse, visit.turnA, visit.turnB, bodies);
+  const Push &lasting = visit.lasting, &once = visit.once;
+  const double sum = lasting.impulse.sum() + lasting.turnA.sum() + lasting.turnB.sum() +
+                     once.impulse.sum() + once.turnA.sum() + once.turnB.sum();
+  if (!std::isfinite(sum)) return false;
+  displacePair(pair, lasting, once, visit.corrects, bodies);
   return true;
 }
 

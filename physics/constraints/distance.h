@@ -13,7 +13,7 @@ struct DistanceDef {
   std::array<BodyId, 2> bodies{};
   std::array<Vec3, 2> anchors{Vec3::Zero(), Vec3::Zero()};  // body frames
   std::optional<double> length;                             // m; absent: as at the start
-  bool rope = false;     // resists only stretching
+  bool rope = false;                                        // resists only stretching
   bool collide = true;
   Tuning tuning;
   template <class V, class D>

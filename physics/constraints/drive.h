@@ -1,8 +1,9 @@
 // Drive: a damped angular spring towards a target orientation, with a torque limit; a muscle.
-//   dtheta = log(q_j target^-1 q_i^-1), the turn of body j past its target against body i [rad]     (129)
-//   tau = -k dtheta - nu d(dtheta)/dt on body j, opposite on i, |tau| <= tau_max            (128),(132)
-//   as rows: alpha = 1/(k h^2 + nu h), c = alpha (k h^2 dtheta + nu h (turn since t)), J = -1, +1   (130)
-//   k = nu = 0 is no row at all. At |dtheta| = pi the shorter way is ambiguous and one is taken.
+//   dtheta = log(q_j target^-1 q_i^-1), the turn of body j past its target against body i [rad]
+//   (129) tau = -k dtheta - nu d(dtheta)/dt on body j, opposite on i, |tau| <= tau_max (128),(132)
+//   as rows: alpha = 1/(k h^2 + nu h), c = alpha (k h^2 dtheta + nu h (turn since t)), J = -1, +1
+//   (130) k = nu = 0 is no row at all. At |dtheta| = pi the shorter way is ambiguous and one is
+//   taken.
 #pragma once
 
 #include "physics/constraint.h"
@@ -13,9 +14,10 @@ namespace physics {
 struct DriveDef {
   static constexpr const char* kWord = "drive";
   std::array<BodyId, 2> bodies{};
-  std::optional<Quat> target;  // orientation of bodies[1] in bodies[0]'s frame; absent: as at the start
-  double stiffness = 20;                                        // k [N m/rad]
-  double damping = 0.2;                                         // nu [N m s]
+  std::optional<Quat>
+      target;             // orientation of bodies[1] in bodies[0]'s frame; absent: as at the start
+  double stiffness = 20;  // k [N m/rad]
+  double damping = 0.2;   // nu [N m s]
   double maxTorque = std::numeric_limits<double>::infinity();  // tau_max [N m]
   Tuning tuning;
   template <class V, class D>
@@ -32,6 +34,7 @@ struct DriveDef {
 struct Drive {
   static constexpr int kBodies = 2, kRows = 3;
   static constexpr bool kLinear = false;
+  static constexpr bool kForce = true;  // no error that could stand
   static constexpr const char* kUnit = "N m";
   std::array<BodyId, 2> bodies{};
   Quat target = Quat::Identity();

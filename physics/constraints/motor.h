@@ -1,5 +1,6 @@
 // Motor: turns body j against body i about an axis at a wanted speed, with a torque limit.
-//   c = (turn about n since t) - speed h [rad]   J = -n, +n, n the axis of body i   total within +- tau_max h^2
+//   c = (turn about n since t) - speed h [rad]   J = -n, +n, n the axis of body i   total within +-
+//   tau_max h^2
 #pragma once
 
 #include "physics/constraint.h"
@@ -27,6 +28,7 @@ struct MotorDef {
 struct Motor {
   static constexpr int kBodies = 2, kRows = 1;
   static constexpr bool kLinear = false;
+  static constexpr bool kForce = true;  // no error that could stand
   static constexpr const char* kUnit = "rad";
   std::array<BodyId, 2> bodies{};
   Vec3 axisI = Vec3::UnitX();  // body frame of i

@@ -19,8 +19,8 @@ void Spring::evaluate(const Configuration& x, Row<kBodies, kRows>& row) const {
   if (!row.active) return;
   const Vec3 d = dp / distance;
   row.alpha = 1 / (kh2 + nuh);
-  row.c[0] = row.alpha * (kh2 * (distance - restLength) +
-                          nuh * (distance - between(*this, x.start).norm()));
+  row.c[0] = row.alpha *
+             (kh2 * (distance - restLength) + nuh * (distance - between(*this, x.start).norm()));
   const Vec3 ri = x.now[bodies[0]].q * anchors[0], rj = x.now[bodies[1]].q * anchors[1];
   row.linear[0] = d.transpose();
   row.linear[1] = -d.transpose();

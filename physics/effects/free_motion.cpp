@@ -16,7 +16,7 @@ bool isotropic(const Vec3& inertia) {
 void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
   Pose& pose = bodies.pose[i];
   Vec3& w = bodies.velocity[i].w;
-  if (isotropic(bodies.inertia[i])) {  // the gyroscopic torque is zero
+  if (isotropic(bodies.inertia[i])) {                 // the gyroscopic torque is zero
     w += dt * bodies.inverseInertia[i].x() * torque;  // (30)
     bodies.freeTurn[i] = dt * w;
   } else {
@@ -30,8 +30,8 @@ void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
   pose.q = exponential(bodies.freeTurn[i]) * pose.q;  // (31)
 }
 
-// The turn of this substep, with as many whole turns as the free motion made: the logarithm alone would
-// take a spin beyond pi/h for one the other way round.
+// The turn of this substep, with as many whole turns as the free motion made: the logarithm alone
+// would take a spin beyond pi/h for one the other way round.
 Vec3 unwrapped(const Vec3& turn, const Vec3& free) {
   const double angle = turn.norm();
   if (angle < 1e-9 || free.squaredNorm() < 1) return turn;
@@ -41,7 +41,8 @@ Vec3 unwrapped(const Vec3& turn, const Vec3& free) {
 
 }  // namespace
 
-// Newton on F(Omega_m) = I Omega_m - (M + exp(-h Omega_m) M)/2; dF = I - h/2 [M']x to first order in h.
+// Newton on F(Omega_m) = I Omega_m - (M + exp(-h Omega_m) M)/2; dF = I - h/2 [M']x to first order
+// in h.
 FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt) {
   constexpr int kMostIterations = 30;
   const Vec3 momentum = inertia.cwiseProduct(omega);
@@ -70,8 +71,9 @@ void moveFreely(Bodies& bodies, std::span<const Load> loads, const std::optional
     if (bodies.motion[i] == Motion::kStatic) continue;
     Velocity& velocity = bodies.velocity[i];
     bodies.shift[i].setZero();
+    bodies.correction[i] = {};
     if (bodies.motion[i] == Motion::kDynamic) {
-      if (gravity) velocity.v += dt * *gravity;                       // (28)
+      if (gravity) velocity.v += dt * *gravity;  // (28)
       velocity.v += dt * bodies.inverse[i].m * loads[i].force;
     }
     bodies.pose[i].x += dt * velocity.v;  // (29)
@@ -90,8 +92,9 @@ void finishVelocities(Bodies& bodies, double dt) {
     bodies.velocity[i].v += bodies.shift[i] / dt;  // (43)
     if (bodies.inverseInertia[i].isZero(0)) continue;
     bodies.pose[i].q.normalize();
-    const Vec3 turn = unwrapped(logarithm(bodies.pose[i].q * bodies.start[i].q.conjugate()),
-                                bodies.freeTurn[i]);
+    const Quat moved = exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
+    const Vec3 turn =
+        unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
     if (isotropic(bodies.inertia[i])) {
       bodies.velocity[i].w = turn / dt;  // bounded by pi/h, where the sum (45) is not; paper.md
     } else {

@@ -1,4 +1,5 @@
-// Free motion of every body over a substep, (28)-(31), with the gyroscopic torque where it does anything.
+// Free motion of every body over a substep, (28)-(31), with the gyroscopic torque where it does
+// anything.
 #pragma once
 
 #include <optional>
@@ -10,8 +11,9 @@ namespace physics {
 
 // A torque-free turn of a body with principal moments `inertia` over dt, in the body frame.
 //   M = I Omega;  M' = exp(-h Omega_m) M,  Omega_m = I^-1 (M + M')/2
-// This is the implicit midpoint of NOTES 3.1 with the exact rotation in place of its linear part: M' is M
-// turned, so the angular momentum in the world is kept, and turned about Omega_m, so the energy is kept too.
+// This is the implicit midpoint of NOTES 3.1 with the exact rotation in place of its linear part:
+// M' is M turned, so the angular momentum in the world is kept, and turned about Omega_m, so the
+// energy is kept too.
 struct FreeTurn {
   Vec3 mean = Vec3::Zero();   // Omega_m [rad/s]
   Vec3 after = Vec3::Zero();  // Omega' = I^-1 M' [rad/s]
@@ -29,7 +31,8 @@ struct Load {
 void moveFreely(Bodies& bodies, std::span<const Load> loads, const std::optional<Vec3>& gravity,
                 double dt);
 
-// Velocities from the displacements that the solve made, (43) and the quaternion logarithm for (45).
+// Velocities from the displacements that the solve made, (43) and the quaternion logarithm for
+// (45).
 void finishVelocities(Bodies& bodies, double dt);
 
 // R I^-1 R^T at the present poses.

@@ -13,7 +13,7 @@ bool sweepKind(K& kind, Bodies& bodies, double dt, StepReport& report) {
   auto& set = kind.set;
   report.constraintEvaluations += static_cast<std::int64_t>(set.items.size());
   for (std::size_t k = 0; k < set.items.size(); ++k) {
-    if (solve(set.items[k], set.total[k], set.tuned[k], bodies, dt)) continue;
+    if (solve(set.items[k], set.lambda[k], set.tuned[k], bodies, dt)) continue;
     nameCulprit(report, K::kWord, k, set.items[k].bodies[0]);
     return false;
   }
@@ -36,27 +36,23 @@ bool sweepContacts(World::Impl& world, double dt, StepReport& report) {
 }  // namespace
 
 void prepareConstraints(World::Impl& world, double dt) {
-  const bool warm = world.settings.warmStart;
+  const bool warm = world.settings.warmStartJoints;
   forEachKind(world.kinds, [&](auto& kind) {
     auto& set = kind.set;
     for (std::size_t k = 0; k < set.items.size(); ++k) {
-      if (warm) {
-        warmStart(set.items[k], set.total[k], world.bodies, dt);
-      } else {
-        set.total[k].setZero();
-      }
+      prepare(set.items[k], set.lambda[k], warm, set.tuned[k].split, world.bodies, dt);
     }
   });
-  for (ContactPair& pair : world.contacts.pairs) prepare(pair, world.bodies, warm);
+  for (ContactPair& pair : world.contacts.pairs)
+    prepare(pair, world.bodies, world.settings.warmStart);
 }
 
 void nonlinearGaussSeidel(World::Impl& world, double dt, StepReport& report) {
   for (int k = 0; k < world.settings.iterations; ++k) {
     if (k > 0) refreshInertia(world.bodies);
     bool finite = true;
-    forEachKind(world.kinds, [&](auto& kind) {
-      finite = finite && sweepKind(kind, world.bodies, dt, report);
-    });
+    forEachKind(world.kinds,
+                [&](auto& kind) { finite = finite && sweepKind(kind, world.bodies, dt, report); });
     if (!finite || !sweepContacts(world, dt, report)) return;
     ++report.iterations;
   }

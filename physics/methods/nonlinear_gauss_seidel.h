@@ -1,4 +1,5 @@
-// Non-linear Gauss-Seidel (52),(53): every constraint in turn, its error taken at the latest displacement.
+// Non-linear Gauss-Seidel (52),(53): every constraint in turn, its error taken at the latest
+// displacement.
 #pragma once
 
 #include "physics/world_impl.h"
