@@ -1,5 +1,5 @@
-// Shapes in, contact manifolds out. The collider finds pairs that can touch during a step and keeps what
-// it found for as long as the bodies stay within the bounds it was found with.
+// Shapes in, contact manifolds out. The collider finds pairs that can touch during a step and keeps
+// what it found for as long as the bodies stay within the bounds it was found with.
 #pragma once
 
 #include <array>
@@ -13,9 +13,11 @@
 
 namespace physics {
 
-// One point of a manifold. The surfaces are cores (a sphere's centre, a capsule's segment, a box's face)
-// plus a radius along the normal; with R_a, R_b the present rotations and n the present normal,
-//   p_a = x_a + R_a coreA - radiusA n,   p_b = x_b + R_b coreB + radiusB n,   gap c = (p_a - p_b) . n   (91)
+// One point of a manifold. The surfaces are cores (a sphere's centre, a capsule's segment, a box's
+// face) plus a radius along the normal; with R_a, R_b the present rotations and n the present
+// normal,
+//   p_a = x_a + R_a coreA - radiusA n,   p_b = x_b + R_b coreB + radiusB n,   gap c = (p_a - p_b) .
+//   n   (91)
 // so that a rolling sphere keeps its gap exactly while it turns.
 struct ContactPoint {
   Vec3 coreA = Vec3::Zero();  // body frame of a
@@ -25,7 +27,8 @@ struct ContactPoint {
   std::uint32_t feature = 0;  // same value = same pair of features, from step to step
 };
 
-// At most four points between two bodies, a < b not required but (a, b) stable for a pair over its life.
+// At most four points between two bodies, a < b not required but (a, b) stable for a pair over its
+// life.
 struct Manifold {
   static constexpr int kMaxPoints = 4;
   BodyId a = 0, b = 0;
@@ -45,20 +48,21 @@ class Collider {
   void add(BodyId body, const Shape& shape, bool movable);
   void ignore(BodyId a, BodyId b);  // this pair never touches (jointed neighbours)
 
-  // Finds all manifolds whose gap can close while bodies move from `start` to `end` (poses indexed by
-  // BodyId, the same length). A point is reported when its gap at `start` is at most `margin` [m] plus
-  // what the two bodies approach each other by. Where a body moves by more than it is thick, the
-  // manifold is that of the first touch along the straight sweep (normal and points taken there).
-  // The result is sorted by (a, b), deterministic, and valid until the next call. No allocation once the
-  // scene has settled.
-  std::span<const Manifold> find(std::span<const Pose> start, std::span<const Pose> end, double margin);
+  // Finds all manifolds whose gap can close while bodies move from `start` to `end` (poses indexed
+  // by BodyId, the same length). A point is reported when its gap at `start` is at most `margin`
+  // [m] plus what the two bodies approach each other by. Where a body moves by more than it is
+  // thick, the manifold is that of the first touch along the straight sweep (normal and points
+  // taken there). The result is sorted by (a, b), deterministic, and valid until the next call. No
+  // allocation once the scene has settled.
+  std::span<const Manifold> find(std::span<const Pose> start, std::span<const Pose> end,
+                                 double margin);
 
-  // True when some body, moving from `start` to `end`, leaves the bounds that the last find() looked in:
-  // contacts may be missing, call find() again.
+  // True when some body, moving from `start` to `end`, leaves the bounds that the last find()
+  // looked in: contacts may be missing, call find() again.
   bool outdated(std::span<const Pose> start, std::span<const Pose> end) const;
 
-  // Signed distance [m] (negative: depth) of two bodies at these poses; +infinity for a pair without shapes.
-  // For measures and tests, not for the step.
+  // Signed distance [m] (negative: depth) of two bodies at these poses; +infinity for a pair
+  // without shapes. For measures and tests, not for the step.
   double distance(BodyId a, const Pose& poseA, BodyId b, const Pose& poseB) const;
 
   // Work done so far, for measures: narrow-phase evaluations and pairs now watched.

@@ -1,0 +1,35 @@
+// Which bounds overlap: FCL's dynamic tree behind a plain interface.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "physics/collision/solid.h"
+
+namespace physics::collision {
+
+class BroadPhase {
+ public:
+  BroadPhase();
+  ~BroadPhase();
+  BroadPhase(const BroadPhase&) = delete;
+  BroadPhase& operator=(const BroadPhase&) = delete;
+
+  // Items are numbered from 0 in the order they come. Two points (`small`) are never reported
+  // together.
+  void add(const Bounds& bounds, bool small);
+
+  // Takes the new bounds of the items `moved` over, then appends each {moved item, other item}
+  // whose bounds overlap; in no order, a pair of two moved items twice. No allocation beyond
+  // `found`.
+  void update(std::span<const int> moved, std::span<const Bounds> bounds,
+              std::vector<std::array<int, 2>>& found);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace physics::collision

@@ -1,0 +1,164 @@
+// Dispatch over pairs of shapes, and the general method for convex cores.
+#include "physics/collision/narrow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/collision/axis.h"
+#include "physics/collision/contacts.h"
+#include "physics/collision/gjk.h"
+#include "physics/collision/round.h"
+
+namespace physics::collision {
+namespace {
+
+constexpr double kFlat = 5e-4;  // of the smaller size: directions this close are one
+constexpr double kTie = 1e-4;   // of the smaller size: points this close in rank are one
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+double smallerSize(const Solid& a, const Solid& b) {
+  if (a.size == 0 || b.size == 0) return a.size + b.size;
+  return std::min(a.size, b.size);
+}
+
+Line placed(const Line& line, const Relative& pose) {
+  return {pose.R * line.from + pose.t, pose.R * line.to + pose.t};
+}
+
+// Points for a direction found among facets and lines.
+void touchAlong(const Solid& a, const Solid& b, const Relative& pose, const Axis& axis,
+                Contacts& contacts) {
+  if (axis.from == Axis::From::facetB) {
+    touchFacet(a, b, pose, Owner::b, axis.indexB, contacts);
+  } else if (axis.from == Axis::From::facetA) {
+    touchFacet(a, b, pose, Owner::a, axis.indexA, contacts);
+  } else {
+    contacts.n = axis.n;
+    contacts.radiusA = a.isLine() ? a.radius : 0;
+    contacts.radiusB = b.isLine() ? b.radius : 0;
+    const auto edges = static_cast<std::uint32_t>(axis.indexA * 4096 + axis.indexB) * 2;
+    touchLines(placed(lineOf(a, axis.indexA), pose), lineOf(b, axis.indexB), kLinesTag | edges,
+               flatness(a, b), contacts);
+  }
+}
+
+// One point between two core points.
+void touchPoints(const Solid& a, const Solid& b, const Vec3& n, const Vec3& onA, const Vec3& onB,
+                 Contacts& contacts) {
+  contacts.n = n;
+  contacts.radiusA = a.rounding;
+  contacts.radiusB = b.rounding;
+  contacts.count = 0;
+  contacts.add(onA, onB, kPointTag);
+}
+
+// The point of a that is deepest along -n, with the plane that it is measured from.
+void touchDeepest(const Solid& a, const Solid& b, const Relative& pose, const Axis& axis,
+                  Contacts& contacts) {
+  const Vec3 onA = pose.R * support(a, -(pose.R.transpose() * axis.n)) + pose.t;
+  touchPoints(a, b, axis.n, onA, onA - axis.separation * axis.n, contacts);
+}
+
+// Overlapping cores with a curved side or too many edges: pushed apart along the best direction
+// known, their distance gives a better one, until it does not. True when it found one better by
+// `tolerance`.
+bool refine(const Solid& a, const Solid& b, const Relative& pose, double tolerance, Axis& axis,
+            Contacts& contacts) {
+  bool better = false;
+  for (int i = 0; i < 8; ++i) {
+    const double away = 1e-2 * smallerSize(a, b) - axis.separation;
+    Relative apart = pose;
+    apart.t += away * axis.n;
+    const Distance d = coreDistance(a, b, apart);
+    if (d.overlap) break;
+    const Vec3 n = (d.onA - d.onB) / d.distance;
+    const double separation = d.distance - away * axis.n.dot(n);
+    if (separation <= axis.separation + tolerance) break;
+    const Vec3 middle = 0.5 * (d.onA - away * axis.n + d.onB);
+    touchPoints(a, b, n, middle + 0.5 * separation * n, middle - 0.5 * separation * n, contacts);
+    axis = {Axis::From::points, n, separation, -1, -1};
+    better = true;
+  }
+  return better;
+}
+
+bool isExact(const Solid& a, const Solid& b) {  // facets and edges are all there is
+  const bool curved = a.kind == Kind::cylinder || b.kind == Kind::cylinder;
+  return !curved && a.edges.size() * b.edges.size() <= 10000;
+}
+
+// Cores that overlap, or touch to rounding, and no facet or line holds the deepest point.
+double touchOverlapping(const Solid& a, const Solid& b, const Relative& pose, Axis axis,
+                        Contacts& contacts) {
+  const double tolerance = kFlat * smallerSize(a, b);
+  const bool tried = !isExact(a, b) && refine(a, b, pose, tolerance, axis, contacts);
+  if (!tried && contacts.count == 0) touchDeepest(a, b, pose, axis, contacts);
+  return axis.separation - a.rounding - b.rounding;
+}
+
+// Two cores with facets and edges. A facet or line is taken when one of its points is at the
+// distance that the directions promise; then no other can be nearer. Otherwise the nearest points
+// decide.
+double touchCores(const Solid& a, const Solid& b, const Relative& pose, double reach,
+                  Contacts& contacts) {
+  const double radii = a.rounding + b.rounding, enough = reach + radii;
+  const bool boxes = a.kind == Kind::box && b.kind == Kind::box;
+  const Axes axes = boxes ? findBoxAxes(a, b, pose, enough) : findAxes(a, b, pose, enough);
+  const Axis& largest = axes.largest();
+  contacts.count = 0;
+  const double separation = largest.separation - radii;
+  if (separation > reach) return separation;
+  const double tolerance = kFlat * smallerSize(a, b);
+  const Axis& preferred = axes.preferred(tolerance);
+  const bool exact = isExact(a, b);
+  for (const Axis* axis : {&preferred, &largest}) {
+    touchAlong(a, b, pose, *axis, contacts);
+    if (exact && largest.separation <= 0 && contacts.count > 0) return separation;
+    if (!exact && largest.separation < -tolerance) continue;
+    if (contacts.smallestGap() <= separation + tolerance) return separation;
+  }
+  const Distance nearest = coreDistance(a, b, pose);
+  if (nearest.overlap) return touchOverlapping(a, b, pose, largest, contacts);
+  const Vec3 n = (nearest.onA - nearest.onB) / nearest.distance;
+  touchPoints(a, b, n, nearest.onA, nearest.onB, contacts);
+  return nearest.distance - radii;
+}
+
+bool isRound(const Solid& s) { return s.kind <= Kind::capsule; }
+
+}  // namespace
+
+double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
+             Manifold& out) {
+  Contacts contacts;
+  double distance = 0;
+  if (b.kind == Kind::plane) {
+    distance = touchPlane(a, b, pose, contacts);
+  } else if (isRound(b)) {
+    distance = touchRound(a, b, pose, contacts);
+  } else if (a.kind <= Kind::sphere) {
+    distance = touchPoint(a, b, pose, contacts);
+  } else {
+    distance = touchCores(a, b, pose, reach, contacts);
+  }
+  out.count = 0;
+  if (distance <= reach) finish(contacts, pose, keep, kTie * smallerSize(a, b), out);
+  return distance;
+}
+
+double signedDistance(const Solid& a, const Solid& b, const Relative& pose) {
+  if (a.kind > b.kind) return signedDistance(b, a, inverse(pose));
+  Contacts contacts;
+  if (b.kind == Kind::plane) return a.kind == b.kind ? kInfinite : touchPlane(a, b, pose, contacts);
+  if (isRound(b)) return touchRound(a, b, pose, contacts);
+  if (a.kind <= Kind::sphere) return touchPoint(a, b, pose, contacts);
+  const double radii = a.rounding + b.rounding;
+  const Distance nearest = coreDistance(a, b, pose);
+  if (!nearest.overlap) return nearest.distance - radii;
+  Axis best = findAxes(a, b, pose, kInfinite).largest();
+  if (!isExact(a, b)) refine(a, b, pose, 0, best, contacts);
+  return best.separation - radii;
+}
+
+}  // namespace physics::collision

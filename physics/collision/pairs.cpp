@@ -1,0 +1,214 @@
+// Fat bounds, and the sorted list of pairs whose fat bounds overlap.
+#include "physics/collision/pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace physics::collision {
+namespace {
+
+constexpr double kSlack = 0.04;  // of the size: how much bounds are fatter than they must be
+constexpr double kAhead = 2;     // steps of the present motion that the bounds hold
+
+Bounds grown(const Bounds& bounds, double by) {
+  return {bounds.low - Vec3::Constant(by), bounds.high + Vec3::Constant(by)};
+}
+Bounds joined(const Bounds& p, const Bounds& q) {
+  return {p.low.cwiseMin(q.low), p.high.cwiseMax(q.high)};
+}
+bool within(const Bounds& inner, const Bounds& outer) {
+  return (inner.low.array() >= outer.low.array()).all() &&
+         (inner.high.array() <= outer.high.array()).all();
+}
+bool overlap(const Bounds& p, const Bounds& q) {
+  return (p.low.array() <= q.high.array()).all() && (q.low.array() <= p.high.array()).all();
+}
+
+Bounds swept(const Solid& solid, const Pose& start, const Pose& end) {
+  return joined(boundsAt(solid, start.x, start.q.toRotationMatrix()),
+                boundsAt(solid, end.x, end.q.toRotationMatrix()));
+}
+
+// Room for one more step or two like this one, and for a little more in all directions.
+Bounds fattened(const Solid& solid, const Bounds& swept, const Vec3& move, double margin) {
+  const Bounds ahead{swept.low + kAhead * move, swept.high + kAhead * move};
+  return grown(joined(swept, ahead), margin + kSlack * solid.size);
+}
+
+// Whether bounds reach below a plane (its body does not move within a step).
+bool reaches(const Bounds& bounds, const Item& plane) {
+  const Vec3 n = plane.R * plane.solid.normal;
+  const Vec3 lowest = (n.array() > 0).select(bounds.low, bounds.high);
+  return n.dot(lowest - plane.x) <= plane.solid.offset;
+}
+
+}  // namespace
+
+bool isFirst(const Item& p, const Item& q) {
+  if (p.solid.kind != q.solid.kind) return p.solid.kind < q.solid.kind;
+  if (p.movable != q.movable) return p.movable;
+  return p.body < q.body;
+}
+
+void Pairs::add(BodyId body, const Shape& shape, bool movable) {
+  require(body >= 0 && body >= static_cast<BodyId>(indexOf_.size()),
+          "collider: bodies must be added once, with increasing ids");
+  Item item{body, movable, makeSolid(shape)};
+  require(!movable || item.solid.kind != Kind::plane, "collider: a plane must not be movable");
+  indexOf_.resize(static_cast<std::size_t>(body) + 1, -1);
+  indexOf_[body] = static_cast<int>(items_.size());
+  if (item.solid.kind == Kind::plane) planes_.push_back(indexOf_[body]);
+  items_.push_back(std::move(item));
+  treeIndex_.push_back(-1);
+  moved_.push_back(1);
+  const double nowhere = std::numeric_limits<double>::infinity();
+  fat_.push_back({Vec3::Constant(nowhere), Vec3::Constant(-nowhere)});
+}
+
+void Pairs::ignore(BodyId a, BodyId b) {
+  const auto pair = std::minmax(a, b);
+  const auto at =
+      std::lower_bound(ignored_.begin(), ignored_.end(), std::pair<BodyId, BodyId>(pair));
+  if (at != ignored_.end() && *at == std::pair<BodyId, BodyId>(pair)) return;
+  ignored_.insert(at, pair);
+  ignoredMore_ = true;
+}
+
+int Pairs::indexOf(BodyId body) const {
+  return body >= 0 && body < static_cast<BodyId>(indexOf_.size()) ? indexOf_[body] : -1;
+}
+
+bool Pairs::wanted(const Item& p, const Item& q) const {
+  if (!p.movable && !q.movable) return false;
+  if (p.solid.kind == Kind::point && q.solid.kind == Kind::point) return false;
+  const std::pair<BodyId, BodyId> pair(std::minmax(p.body, q.body));
+  return !std::binary_search(ignored_.begin(), ignored_.end(), pair);
+}
+
+bool Pairs::touches(int p, int q) const {
+  if (items_[p].solid.kind == Kind::plane) return reaches(fat_[q], items_[p]);
+  if (items_[q].solid.kind == Kind::plane) return reaches(fat_[p], items_[q]);
+  return overlap(fat_[p], fat_[q]);
+}
+
+Pairs::Key Pairs::keyOf(int p, int q) const {
+  if (!isFirst(items_[p], items_[q])) std::swap(p, q);
+  return {items_[p].body, items_[q].body, -1};
+}
+
+int Pairs::takeWatch(int p, int q) {
+  if (free_.empty()) {
+    free_.push_back(static_cast<int>(watches_.size()));
+    watches_.emplace_back();
+  }
+  const int index = free_.back();
+  free_.pop_back();
+  Watch& watch = watches_[index];
+  watch.a = p;
+  watch.b = q;
+  watch.known = false;
+  watch.manifold.a = items_[p].body;
+  watch.manifold.b = items_[q].body;
+  return index;
+}
+
+void Pairs::dropParted() {
+  std::size_t kept = 0;
+  for (const Key& key : keys_) {
+    const int p = indexOf_[key.a], q = indexOf_[key.b];
+    const bool asBefore = !moved_[p] && !moved_[q] && !ignoredMore_;
+    if (asBefore || (touches(p, q) && wanted(items_[p], items_[q]))) {
+      keys_[kept++] = key;
+    } else {
+      free_.push_back(key.watch);
+    }
+  }
+  keys_.resize(kept);
+}
+
+void Pairs::findNew() {
+  fresh_.clear();
+  const auto offer = [&](int p, int q) {
+    if (wanted(items_[p], items_[q]) && touches(p, q)) fresh_.push_back(keyOf(p, q));
+  };
+  for (const auto& [p, q] : found_) offer(itemOfTree_[p], itemOfTree_[q]);
+  for (const int plane : planes_) {
+    for (const int t : movedTree_) offer(itemOfTree_[t], plane);
+  }
+  std::sort(fresh_.begin(), fresh_.end());
+  fresh_.erase(std::unique(fresh_.begin(), fresh_.end()), fresh_.end());
+  merged_.clear();
+  auto old = keys_.begin();
+  for (Key key : fresh_) {
+    const auto before = [](const Key& l, const Key& r) {
+      return std::pair(l.a, l.b) < std::pair(r.a, r.b);
+    };
+    while (old != keys_.end() && before(*old, key)) merged_.push_back(*old++);
+    if (old != keys_.end() && !before(key, *old)) continue;
+    key.watch = takeWatch(indexOf_[key.a], indexOf_[key.b]);
+    merged_.push_back(key);
+  }
+  merged_.insert(merged_.end(), old, keys_.end());
+  keys_.swap(merged_);
+}
+
+bool Pairs::takeMotion(Item& item, const Pose& from, const Pose& to) {
+  const Mat3 R = from.q.toRotationMatrix();
+  const bool plane = item.solid.kind == Kind::plane;
+  const bool planeMoved = plane && (R != item.R || from.x != item.x);
+  item.R = R;
+  item.x = from.x;
+  item.move = to.x - from.x;
+  item.turn = item.solid.coreRadius * 2 * (from.q.conjugate() * to.q).vec().norm();
+  return planeMoved;
+}
+
+void Pairs::fatten(int i, const Bounds& path, double margin) {
+  const Item& item = items_[i];
+  fat_[i] = fattened(item.solid, path, item.move, margin);
+  if (treeIndex_[i] < 0) {
+    treeIndex_[i] = static_cast<int>(itemOfTree_.size());
+    itemOfTree_.push_back(i);
+    treeBounds_.push_back(fat_[i]);
+    tree_.add(fat_[i], item.solid.kind == Kind::point);
+  }
+  treeBounds_[treeIndex_[i]] = fat_[i];
+  movedTree_.push_back(treeIndex_[i]);
+}
+
+void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin) {
+  require(start.size() == end.size() && start.size() >= indexOf_.size(),
+          "collider: start and end must hold a pose for each body");
+  bool all = margin > margin_;
+  for (Item& item : items_) {
+    all = takeMotion(item, start[item.body], end[item.body]) || all;
+  }
+  movedTree_.clear();
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const Item& item = items_[i];
+    if (item.solid.kind == Kind::plane) continue;
+    const Bounds path = swept(item.solid, start[item.body], end[item.body]);
+    moved_[i] = all || !within(grown(path, margin), fat_[i]);
+    if (moved_[i]) fatten(static_cast<int>(i), path, margin);
+  }
+  margin_ = std::max(margin, margin_);
+  if (movedTree_.empty() && !ignoredMore_) return;
+  dropParted();
+  found_.clear();
+  tree_.update(movedTree_, treeBounds_, found_);
+  ++broadPhaseCalls_;
+  findNew();
+  ignoredMore_ = false;
+}
+
+bool Pairs::outdated(std::span<const Pose> start, std::span<const Pose> end) const {
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const Item& item = items_[i];
+    if (item.solid.kind == Kind::plane) continue;
+    if (!within(swept(item.solid, start[item.body], end[item.body]), fat_[i])) return true;
+  }
+  return false;
+}
+
+}  // namespace physics::collision

@@ -1,0 +1,89 @@
+// The pairs of bodies near enough to be watched, found by fat bounds and kept in order.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "physics/collision/broad_phase.h"
+#include "physics/collision/collider.h"
+#include "physics/collision/solid.h"
+
+namespace physics::collision {
+
+// A body as the collider knows it, with its motion in the present step.
+struct Item {
+  BodyId body = 0;
+  bool movable = false;
+  Solid solid;
+  Mat3 R = Mat3::Identity();  // at the start
+  Vec3 x = Vec3::Zero(), move = Vec3::Zero();
+  double turn = 0;  // the furthest that turning moves a point of the core [m]
+};
+
+// Two items, and what is known of them since their last narrow phase.
+struct Watch {
+  int a = 0, b = 0;
+  bool known = false;
+  Relative pose;        // then
+  double distance = 0;  // then, or a lower bound
+  double reach = 0;     // how far was looked
+  Manifold manifold;
+};
+
+class Pairs {
+ public:
+  void add(BodyId body, const Shape& shape, bool movable);
+  void ignore(BodyId a, BodyId b);
+
+  // Takes the motion of all items over and brings the list up to date: afterwards it holds every
+  // pair whose surfaces come within `margin` of each other between start and end.
+  void update(std::span<const Pose> start, std::span<const Pose> end, double margin);
+  bool outdated(std::span<const Pose> start, std::span<const Pose> end) const;
+
+  const std::vector<Item>& items() const { return items_; }
+  int indexOf(BodyId body) const;  // -1: no shape
+
+  struct Key {
+    BodyId a = 0, b = 0;
+    int watch = 0;
+    auto operator<=>(const Key&) const = default;
+  };
+  const std::vector<Key>& keys() const { return keys_; }  // sorted by (a, b)
+  Watch& watch(const Key& key) { return watches_[key.watch]; }
+  std::int64_t broadPhaseCalls() const { return broadPhaseCalls_; }
+
+ private:
+  static bool takeMotion(Item& item, const Pose& from, const Pose& to);  // true: a plane moved
+  void fatten(int item, const Bounds& path, double margin);
+  bool wanted(const Item& p, const Item& q) const;
+  Key keyOf(int p, int q) const;
+  bool touches(int p, int q) const;  // of the fat bounds
+  void dropParted();
+  void findNew();
+  int takeWatch(int p, int q);
+
+  std::vector<Item> items_;
+  std::vector<Bounds> fat_;
+  std::vector<int> indexOf_;  // by BodyId
+  std::vector<int> planes_;   // items that are planes; the tree does not know them
+  std::vector<int> treeIndex_, itemOfTree_;
+  BroadPhase tree_;
+  std::vector<std::pair<BodyId, BodyId>> ignored_;  // sorted, first < second
+  bool ignoredMore_ = false;
+  double margin_ = -1;  // of the fat bounds
+  std::int64_t broadPhaseCalls_ = 0;
+
+  std::vector<Key> keys_, fresh_, merged_;
+  std::vector<Watch> watches_;
+  std::vector<int> free_;
+  std::vector<char> moved_;  // by item
+  std::vector<int> movedTree_;
+  std::vector<Bounds> treeBounds_;
+  std::vector<std::array<int, 2>> found_;
+};
+
+// The way the bodies of a pair are ordered: by kind, then static last, then by id.
+bool isFirst(const Item& p, const Item& q);
+
+}  // namespace physics::collision

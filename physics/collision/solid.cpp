@@ -1,0 +1,150 @@
+// Shapes made ready for the narrow phase, support points and bounds.
+#include "physics/collision/solid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/hull.h"
+
+namespace physics::collision {
+namespace {
+
+void fill(Solid& s, const PointShape&) { s.kind = Kind::point; }
+
+void fill(Solid& s, const Sphere& sphere) {
+  s.kind = Kind::sphere;
+  s.rounding = s.radius = sphere.radius;
+  s.high = Vec3::Constant(sphere.radius);
+  s.thickness = 2 * sphere.radius;
+}
+
+void fill(Solid& s, const Capsule& capsule) {
+  s.kind = Kind::capsule;
+  s.rounding = s.radius = capsule.radius;
+  s.halfLength = s.coreRadius = 0.5 * capsule.length;
+  s.high = Vec3(s.radius, s.radius + s.halfLength, s.radius);
+  s.thickness = 2 * capsule.radius;
+}
+
+void fill(Solid& s, const Cylinder& cylinder) {
+  s.kind = Kind::cylinder;
+  s.radius = cylinder.radius;
+  s.halfLength = 0.5 * cylinder.length;
+  s.coreRadius = std::sqrt(s.radius * s.radius + s.halfLength * s.halfLength);
+  s.high = Vec3(s.radius, s.halfLength, s.radius);
+  s.thickness = 2 * std::min(s.radius, s.halfLength);
+}
+
+void fillEdges(Solid& s) {
+  for (const auto& [from, to] : s.hull->edges) {
+    Edge edge{from, to, Vec3::Zero(), Vec3::Zero()};
+    for (const Hull::Face& face : s.hull->faces) {
+      for (std::size_t k = 0; k < face.vertices.size(); ++k) {
+        const int here = face.vertices[k], next = face.vertices[(k + 1) % face.vertices.size()];
+        if (here == from && next == to) edge.normal0 = face.normal;
+        if (here == to && next == from) edge.normal1 = face.normal;
+      }
+    }
+    s.edges.push_back(edge);
+  }
+}
+
+void fillPolyhedron(Solid& s) {
+  s.low = s.high = s.hull->vertices.at(0);
+  for (const Vec3& p : s.hull->vertices) {
+    s.low = s.low.cwiseMin(p);
+    s.high = s.high.cwiseMax(p);
+    s.coreRadius = std::max(s.coreRadius, p.norm());
+  }
+  s.thickness = 2 * s.coreRadius;
+  for (const Hull::Face& face : s.hull->faces) {
+    double deepest = 0;
+    for (const Vec3& p : s.hull->vertices) {
+      deepest = std::max(deepest, face.offset - face.normal.dot(p));
+    }
+    s.thickness = std::min(s.thickness, deepest);
+  }
+  fillEdges(s);
+}
+
+void fill(Solid& s, const Box& box) {
+  s.kind = Kind::box;
+  s.half = 0.5 * box.size;
+  s.hull = std::make_shared<const Hull>(boxHull(s.half));
+  fillPolyhedron(s);
+}
+
+void fill(Solid& s, const Convex& convex) {
+  s.kind = Kind::convex;
+  s.hull = convex.hull;
+  fillPolyhedron(s);
+}
+
+void fill(Solid& s, const Plane& plane) {
+  s.kind = Kind::plane;
+  s.normal = plane.normal.normalized();
+  s.offset = plane.offset / plane.normal.norm();
+}
+
+Vec3 furthestVertex(const Hull& hull, const Vec3& d) {
+  double best = d.dot(hull.vertices[0]);
+  std::size_t index = 0;
+  for (std::size_t i = 1; i < hull.vertices.size(); ++i) {
+    const double along = d.dot(hull.vertices[i]);
+    if (along > best) {
+      best = along;
+      index = i;
+    }
+  }
+  return hull.vertices[index];
+}
+
+}  // namespace
+
+Solid makeSolid(const Shape& shape) {
+  massProperties(shape);  // its checks on sizes
+  Solid solid;
+  std::visit([&](const auto& s) { fill(solid, s); }, shape);
+  if (!solid.isPolyhedron()) solid.low = -solid.high;
+  if (solid.kind != Kind::plane) solid.size = boundingRadius(shape);
+  return solid;
+}
+
+Relative relativePose(const Pose& a, const Pose& b) {
+  const Mat3 toB = b.q.toRotationMatrix().transpose();
+  return {toB * a.q.toRotationMatrix(), toB * (a.x - b.x)};
+}
+
+Vec3 support(const Solid& s, const Vec3& d) {
+  switch (s.kind) {
+    case Kind::capsule:
+      return {0, std::copysign(s.halfLength, d.y()), 0};
+    case Kind::cylinder: {
+      const double across = std::sqrt(d.x() * d.x() + d.z() * d.z());
+      const double scale = across > 0 ? s.radius / across : 0;
+      return {scale * d.x(), std::copysign(s.halfLength, d.y()), scale * d.z()};
+    }
+    case Kind::box:
+      return {std::copysign(s.half.x(), d.x()), std::copysign(s.half.y(), d.y()),
+              std::copysign(s.half.z(), d.z())};
+    case Kind::convex:
+      return furthestVertex(*s.hull, d);
+    default:
+      return Vec3::Zero();
+  }
+}
+
+Bounds boundsAt(const Solid& s, const Vec3& x, const Mat3& R) {
+  if (s.kind == Kind::point || s.kind == Kind::sphere) {
+    return {x - Vec3::Constant(s.radius), x + Vec3::Constant(s.radius)};
+  }
+  if (s.kind == Kind::capsule) {
+    const Vec3 reach = s.halfLength * R.col(1).cwiseAbs() + Vec3::Constant(s.radius);
+    return {x - reach, x + reach};
+  }
+  const Vec3 centre = x + R * (0.5 * (s.low + s.high));
+  const Vec3 reach = R.cwiseAbs() * (0.5 * (s.high - s.low));
+  return {centre - reach, centre + reach};
+}
+
+}  // namespace physics::collision

@@ -1,0 +1,60 @@
+// A shape as the narrow phase sees it: a convex core (point, segment, cylinder or polyhedron),
+// rounded by a radius, with its edges and bounds worked out once.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "physics/shape.h"
+#include "physics/types.h"
+
+namespace physics::collision {
+
+// In the order of the pairs: a manifold's body a never has a later kind than its body b.
+enum class Kind { point, sphere, capsule, cylinder, box, convex, plane };
+
+// An edge of a polyhedron with the outward normals of its two faces.
+struct Edge {
+  int from = 0, to = 0;
+  Vec3 normal0 = Vec3::Zero(), normal1 = Vec3::Zero();
+};
+
+struct Solid {
+  Kind kind = Kind::point;
+  double rounding = 0;                // radius around the core: sphere, capsule
+  double radius = 0, halfLength = 0;  // of a cylinder or capsule, along y
+  Vec3 half = Vec3::Zero();           // of a box
+  std::shared_ptr<const Hull> hull;   // of a box or convex
+  std::vector<Edge> edges;            // of a box or convex
+  Vec3 normal = Vec3::UnitY();        // of a plane: normal . p <= offset is solid
+  double offset = 0;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // bounds in the body frame; of a plane: none
+  double coreRadius = 0;                         // reach of the core from the origin
+  double size = 0;                               // bounding radius; 0 for point and plane
+  double thickness = 0;                          // smallest full extent; 0 for point and plane
+
+  bool isPolyhedron() const { return kind == Kind::box || kind == Kind::convex; }
+  bool isLine() const { return kind == Kind::capsule || kind == Kind::cylinder; }
+};
+
+// Throws std::invalid_argument for sizes that make no solid.
+Solid makeSolid(const Shape& shape);
+
+// Pose of a's frame seen from b's: p_b = R p_a + t.
+struct Relative {
+  Mat3 R = Mat3::Identity();
+  Vec3 t = Vec3::Zero();
+};
+inline Relative inverse(const Relative& r) { return {r.R.transpose(), -(r.R.transpose() * r.t)}; }
+Relative relativePose(const Pose& a, const Pose& b);
+
+// The point of the core that lies furthest along d (body frame, any length but zero).
+Vec3 support(const Solid& solid, const Vec3& d);
+
+// Bounds of the solid at a pose, world frame.
+struct Bounds {
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+};
+Bounds boundsAt(const Solid& solid, const Vec3& x, const Mat3& R);
+
+}  // namespace physics::collision

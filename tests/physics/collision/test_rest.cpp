@@ -1,0 +1,172 @@
+// Resting poses: how many points, where, and with what gap.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/physics/collision/scene_of_two.h"
+
+namespace physics {
+namespace {
+
+using namespace testing;
+
+struct Resting {
+  std::string name;
+  Shape a;
+  Pose poseA;
+  Shape b;
+  Pose poseB;
+  int points = 0;
+  Vec3 normal = Vec3::UnitY();  // from b to a, world
+};
+
+const Plane kFloor{Vec3(0, 1, 0), 0};
+const Quat kLying = turned(Vec3::UnitZ(), 90);  // y axis along -x
+const Quat kUpright = Quat::Identity();
+
+std::vector<Resting> restings() {
+  const Box slab{Vec3(2, 1, 2)};
+  const Pose below{Vec3(0, -.5, 0), kUpright};
+  const Cylinder can{.25, .5};
+  const Capsule pill{.15, .5};
+  const double depth = .5;  // of the cubes below
+  return {
+      {"PointOnPlane", PointShape{}, {Vec3(1, 0, 2), kUpright}, kFloor, {}, 1},
+      {"SphereOnPlane", Sphere{.3}, {Vec3(1, .3, 2), kUpright}, kFloor, {}, 1},
+      {"BoxOnPlane", Box{Vec3(1, 1, 1)}, {Vec3(0, .5, 0), kUpright}, kFloor, {}, 4},
+      {"BoxOnItsEdgeOnPlane",
+       Box{Vec3(1, 1, 1)},
+       {Vec3(0, std::sqrt(.5), 0), turned(Vec3::UnitX(), 45)},
+       kFloor,
+       {},
+       2},
+      {"SmallBoxOnPlane", Box{Vec3(.01, .01, .01)}, {Vec3(0, .005, 0), kUpright}, kFloor, {}, 4},
+      {"LyingCapsuleOnPlane", pill, {Vec3(0, .15, 0), kLying}, kFloor, {}, 2},
+      {"UprightCapsuleOnPlane", pill, {Vec3(0, .4, 0), kUpright}, kFloor, {}, 1},
+      {"LyingCylinderOnPlane", can, {Vec3(0, .25, 0), kLying}, kFloor, {}, 2},
+      {"StandingCylinderOnPlane", can, {Vec3(0, .25, 0), kUpright}, kFloor, {}, 4},
+      {"HullOnPlane",
+       hullOf(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}),
+       {},
+       kFloor,
+       {},
+       3},
+      {"BoxOnBox",
+       Box{Vec3(1, 1, 1)},
+       {Vec3(.2, depth, -.1), turned(Vec3::UnitY(), 10)},
+       slab,
+       below,
+       4},
+      {"EqualBoxesAligned",
+       Box{Vec3(1, 1, 1)},
+       {Vec3(0, depth, 0), kUpright},
+       Box{Vec3(1, 1, 1)},
+       below,
+       4},
+      {"BoxTurnedByAnEighth",
+       Box{Vec3(1, 1, 1)},
+       {Vec3(0, depth, 0), turned(Vec3::UnitY(), 45)},
+       Box{Vec3(1, 1, 1)},
+       below,
+       4},
+      {"HalfOffBox",
+       Box{Vec3(1, 1, 1)},
+       {Vec3(.9, depth, 0), kUpright},
+       Box{Vec3(1, 1, 1)},
+       below,
+       4},
+      {"CrossedEdges",
+       Box{Vec3(1, 1, 1)},
+       {Vec3(0, std::sqrt(2), 0), turned(Vec3::UnitX(), 45)},
+       Box{Vec3(1, 1, 1)},
+       {Vec3::Zero(), turned(Vec3::UnitZ(), 45)},
+       1},
+      {"SphereOnSphere", Sphere{.3}, {Vec3(0, .5, 0), kUpright}, Sphere{.2}, {}, 1},
+      {"SphereOnBox", Sphere{.3}, {Vec3(.5, .3, 0), kUpright}, slab, below, 1},
+      {"SphereOnCylinder", Sphere{.3}, {Vec3(.1, .55, 0), kUpright}, can, {}, 1},
+      {"SphereOnCapsule",
+       Sphere{.3},
+       {Vec3(.1, .45, 0), kUpright},
+       pill,
+       {Vec3::Zero(), kLying},
+       1},
+      {"ParallelCapsules", pill, {Vec3(.1, .3, 0), kLying}, pill, {Vec3::Zero(), kLying}, 2},
+      {"CrossedCapsules",
+       pill,
+       {Vec3(0, .3, 0), kLying},
+       pill,
+       {Vec3::Zero(), turned(Vec3::UnitX(), 90)},
+       1},
+      {"CapsuleLyingOnBox", pill, {Vec3(0, .15, 0), kLying}, slab, below, 2},
+      {"CapsuleAcrossEdge",
+       pill,
+       {Vec3(0, std::sqrt(.5) + .15, 0), turned(Vec3::UnitX(), 90)},
+       Box{Vec3(1, 1, 1)},
+       {Vec3::Zero(), turned(Vec3::UnitZ(), 45)},
+       1},
+      {"CylinderLyingOnBox", can, {Vec3(0, .25, 0), kLying}, slab, below, 2},
+      {"CylinderStandingOnBox", can, {Vec3(0, .25, 0), kUpright}, slab, below, 4},
+      {"CylinderStandingOnCylinder", can, {Vec3(.1, .5, 0), kUpright}, can, {}, 4},
+      {"ParallelCylinders", can, {Vec3(.1, .5, 0), kLying}, can, {Vec3::Zero(), kLying}, 2},
+      {"CapsuleAlongCylinder", pill, {Vec3(.1, .4, 0), kLying}, can, {Vec3::Zero(), kLying}, 2},
+      {"CapsuleLyingOnCap", pill, {Vec3(0, .4, 0), kLying}, can, {}, 2},
+      {"CylinderAcrossCylinder",
+       can,
+       {Vec3(0, .5, 0), kLying},
+       can,
+       {Vec3::Zero(), turned(Vec3::UnitX(), 90)},
+       1},
+  };
+}
+
+class Rest : public ::testing::TestWithParam<Resting> {};
+INSTANTIATE_TEST_SUITE_P(Pairs, Rest, ::testing::ValuesIn(restings()),
+                         [](const auto& info) { return info.param.name; });
+
+Pose restingPose(const Resting& r) {  // the hull of the list lies with one face on the floor
+  if (r.name != "HullOnPlane") return r.poseA;
+  const auto& hull = *std::get<Convex>(r.a).hull;
+  Pose pose;
+  pose.q = Quat::FromTwoVectors(hull.faces[0].normal, -Vec3::UnitY());
+  pose.x.y() = hull.faces[0].offset;
+  return pose;
+}
+
+TEST_P(Rest, HasTheExpectedPointsWithGapZero) {
+  const Resting& r = GetParam();
+  const std::vector<Pose> poses = {Pose{}, restingPose(r), r.poseB};
+  const auto found = meet(r.a, poses[1], r.b, poses[2]);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].count, r.points);
+  std::set<std::uint32_t> features;
+  for (int i = 0; i < found[0].count; ++i) {
+    const Point point = place(found[0], i, poses);
+    EXPECT_NEAR(point.gap, 0, 1e-12);
+    EXPECT_NEAR((point.onA - point.onB).norm(), 0, 1e-12);
+    const Vec3 up = found[0].a == 1 ? r.normal : Vec3(-r.normal);
+    EXPECT_NEAR((point.n - up).norm(), 0, 1e-12);
+    features.insert(found[0].points[i].feature);
+  }
+  EXPECT_EQ(static_cast<int>(features.size()), r.points);
+}
+
+TEST_P(Rest, KeepsItsFeaturesUnderAJiggle) {
+  const Resting& r = GetParam();
+  Random random(3);
+  const Pose rest = restingPose(r);
+  const auto before = meet(r.a, rest, r.b, r.poseB);
+  for (int trial = 0; trial < 100; ++trial) {
+    Pose moved = rest;
+    moved.x += 1e-6 * random.direction();
+    moved.q = turned(random.direction(), 1e-6) * moved.q;
+    const auto after = meet(r.a, moved, r.b, r.poseB);
+    ASSERT_EQ(after.size(), 1u);
+    ASSERT_EQ(after[0].count, before[0].count);
+    for (int i = 0; i < after[0].count; ++i) {
+      EXPECT_EQ(after[0].points[i].feature, before[0].points[i].feature);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace physics
