@@ -30,6 +30,7 @@ void guardStandardStreams() {
     if (opened != stream && opened >= 0) close(opened);
   }
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is told as a full disk is
 }
 
 void say(std::string_view text) {

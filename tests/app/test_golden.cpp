@@ -1,0 +1,90 @@
+// `dbd golden` and `dbd compare` as gates: they pass what is the same, and fail, with a reason,
+// what is not.
+#include "program.h"
+
+namespace tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Golden : public Program {
+ protected:
+  Outcome golden(const std::string& arguments) const {
+    return run("golden " + arguments + " drop.toml --goldens goldens");
+  }
+};
+
+TEST_F(Golden, UpdateNeedsAReason) {
+  EXPECT_EQ(golden("update").code, 2);
+  EXPECT_EQ(golden("update --reason ' '").code, 2);
+  EXPECT_FALSE(fs::exists(folder / "goldens"));
+}
+
+TEST_F(Golden, WhatWasApprovedPassesAndIsNotRewritten) {
+  EXPECT_EQ(golden("check").code, 3);  // nothing approved yet
+  const Outcome update = golden("update --reason 'the first'");
+  ASSERT_EQ(update.code, 0) << update.errors;
+  EXPECT_NE(update.output.find("new"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "goldens" / "drop" / "00006.png"));
+  const Outcome check = golden("check --strict");
+  EXPECT_EQ(check.code, 0) << check.output;
+  const std::string record = readBytes(folder / "goldens" / "drop" / "golden.json");
+  EXPECT_NE(golden("update --reason 'again'").output.find("unchanged"), std::string::npos);
+  EXPECT_EQ(readBytes(folder / "goldens" / "drop" / "golden.json"), record);
+}
+
+TEST_F(Golden, AMovedBodyFailsAndThePhysicsIsNamed) {
+  ASSERT_EQ(golden("update --reason 'the first'").code, 0);
+  const Outcome moved = golden("check --set body.ball.velocity=[1.3,0,0]");
+  EXPECT_EQ(moved.code, 3);
+  EXPECT_NE(moved.output.find("the physics moved"), std::string::npos) << moved.output;
+  const fs::path report = folder / "out" / "golden";
+  EXPECT_TRUE(fs::exists(report / "index.html"));
+  for (const char* part : {"want", "got", "difference"}) {
+    EXPECT_TRUE(fs::exists(report / ("drop_00006-" + std::string(part) + ".png"))) << part;
+  }
+}
+
+TEST_F(Golden, AMovedCameraFailsAndOnlyThePictureIsNamed) {
+  ASSERT_EQ(golden("update --reason 'the first'").code, 0);
+  const std::string moved = "--set camera.eye=[0,1,3.5]";
+  const Outcome check = golden("check " + moved);
+  EXPECT_EQ(check.code, 3) << check.errors;
+  EXPECT_NE(check.output.find("only the picture moved"), std::string::npos) << check.output;
+  EXPECT_NE(golden("update --reason nearer " + moved).output.find("only the picture moved"),
+            std::string::npos);
+  EXPECT_EQ(golden("check " + moved).code, 0);
+}
+
+TEST_F(Golden, CompareTellsEqualFromDifferentImagesAndFolders) {
+  ASSERT_EQ(golden("update --reason 'the first'").code, 0);
+  ASSERT_EQ(
+      run("render drop.toml --quiet --quality standard --size 480x270 --frames 0:7:6 -o run").code,
+      0);
+  const std::string want = "goldens/drop/00006.png";
+  EXPECT_EQ(run("compare --exact " + want + " " + want).code, 0);
+  const Outcome different = run("compare " + want + " goldens/drop/00000.png -o report");
+  EXPECT_EQ(different.code, 3);
+  EXPECT_TRUE(fs::exists(folder / "report" / "index.html"));
+  EXPECT_EQ(run("compare goldens/drop run/frames").code, 0);
+  fs::remove(folder / "run" / "frames" / "00000.png");
+  EXPECT_EQ(run("compare goldens/drop run/frames").code, 3);
+  EXPECT_EQ(run("compare nothing " + want).code, 2);
+  EXPECT_EQ(run("compare drop.toml " + want).code, 2);
+  EXPECT_EQ(run("compare goldens " + want).code, 2);
+}
+
+TEST_F(Golden, GalleryShowsWhatWasRendered) {
+  EXPECT_EQ(run("gallery out").code, 2);
+  ASSERT_EQ(run("render drop.toml --quiet --quality draft --size 160x90").code, 0);
+  const Outcome gallery = run("gallery out");
+  EXPECT_EQ(gallery.code, 0);
+  EXPECT_EQ(gallery.output, "out/index.html\n");
+  const std::string page = readBytes(folder / "out" / "index.html");
+  for (const char* part : {"A ball falls", "drop/frames/00010.png", "overlap", "holds"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+}
+
+}  // namespace
+}  // namespace tests

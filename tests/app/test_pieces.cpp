@@ -1,0 +1,68 @@
+// The small parts of the program that are worth asking directly.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "app/bounded_queue.h"
+#include "app/frame_range.h"
+#include "app/html.h"
+#include "app/nearest.h"
+#include "scenes/input_error.h"
+
+namespace tests {
+namespace {
+
+using Frames = std::vector<int>;
+
+TEST(FrameRange, FollowsPythonSlices) {
+  EXPECT_EQ(app::parseFrameRange(":", 3), (Frames{0, 1, 2}));
+  EXPECT_EQ(app::parseFrameRange("1:", 3), (Frames{1, 2}));
+  EXPECT_EQ(app::parseFrameRange(":2", 3), (Frames{0, 1}));
+  EXPECT_EQ(app::parseFrameRange("::2", 5), (Frames{0, 2, 4}));
+  EXPECT_EQ(app::parseFrameRange("-2:", 5), (Frames{3, 4}));
+  EXPECT_EQ(app::parseFrameRange(":-3", 5), (Frames{0, 1}));
+  EXPECT_EQ(app::parseFrameRange("2:100", 4), (Frames{2, 3}));
+  EXPECT_EQ(app::parseFrameRange("3", 4), (Frames{3}));
+  EXPECT_EQ(app::parseFrameRange("-1", 4), (Frames{3}));
+}
+
+TEST(FrameRange, RefusesWhatLeavesNoFrame) {
+  for (const char* text : {"", "4", "-5", "2:2", "3:1", "0:3:0", "0:3:-1", "a", "1.5:3", "1:2:3:4",
+                           "99999999999:", "9:"}) {
+    EXPECT_THROW(app::parseFrameRange(text, 4), scenes::InputError) << text;
+  }
+}
+
+TEST(NearestWord, FindsMisspellingsAndNothingElse) {
+  const std::vector<std::string> known = {"render", "simulate", "check"};
+  EXPECT_EQ(app::nearestWord("rendr", known), "render");
+  EXPECT_EQ(app::nearestWord("simualte", known), "simulate");
+  EXPECT_EQ(app::nearestWord("xyzzyplugh", known), "");
+}
+
+TEST(BoundedQueue, KeepsTheOrderAndMakesTheProducerWait) {
+  app::BoundedQueue<int> queue(2);
+  std::thread producer([&queue] {
+    for (int i = 0; i < 1000; ++i) queue.push(i);
+    queue.close();
+  });
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(queue.pop(), i);
+  EXPECT_EQ(queue.pop(), std::nullopt);
+  producer.join();
+}
+
+TEST(BoundedQueue, ClosingFreesAWaitingProducerAndDropsItsItem) {
+  app::BoundedQueue<int> queue(1);
+  EXPECT_TRUE(queue.push(1));
+  std::thread producer([&queue] { EXPECT_FALSE(queue.push(2)); });
+  queue.close(true);
+  producer.join();
+  EXPECT_EQ(queue.pop(), std::nullopt);
+}
+
+TEST(Html, TextCannotBecomeMarkup) {
+  EXPECT_EQ(app::escapeHtml("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
+}
+
+}  // namespace
+}  // namespace tests
