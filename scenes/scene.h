@@ -13,8 +13,9 @@
 namespace scenes {
 
 struct Expectation {  // [[expect]]
-  std::string metric;  // joint_error, energy_drift, momentum_drift, overlap, max_speed, finite, height, ...
-  std::string body;    // where the metric is one body's
+  std::string
+      metric;  // joint_error, energy_drift, momentum_drift, overlap, max_speed, finite, height, ...
+  std::string body;  // where the metric is one body's
   std::optional<double> atMost, atLeast;
   std::optional<double> from, to;  // s, the span it must hold in; absent: the whole run
   int line = 0, column = 0;
@@ -31,6 +32,8 @@ struct CameraDef {
   std::vector<CameraKey> keys;
   physics::Vec3 direction{-0.5, -0.35, -1.0};
   double fieldOfViewDegrees = 35;
+  std::string fit = "*";  // the bodies to fit: a name or a pattern such as "stack.*"
+  double margin = 0.08;   // of the picture, left free on each side
 };
 
 struct Overlays {  // drawn on request, off by default
@@ -44,10 +47,10 @@ struct GoldenDef {  // [golden]
   std::string stateHash;  // of the last golden frame, 16 hex digits; empty: not recorded yet
 };
 
-// All that was read, with defaults filled in and every override applied. What the bodies and constraints
-// are is kept behind `content`, which Simulation builds from.
+// All that was read, with defaults filled in and every override applied. What the bodies and
+// constraints are is kept behind `content`, which Simulation builds from.
 struct Scene {
-  std::string name;   // file name without .toml
+  std::string name;  // file name without .toml
   std::string path;
   std::string title;
   std::string description;
@@ -66,12 +69,13 @@ struct Scene {
   struct Content;
   std::shared_ptr<const Content> content;
 
-  int frameCount() const;  // frames 0..frameCount()-1, frame k at k/fps; duration rounded to whole frames
+  int frameCount()
+      const;  // frames 0..frameCount()-1, frame k at k/fps; duration rounded to whole frames
 };
 
-// `scene` is a name in the library or a path. Throws InputError, with the nearest name for an unknown one.
-// Each override is "key=value" (simulation.iterations=32, body.ball.mass=3, gravity.acceleration=[0,-1,0]),
-// typed and checked as the file is.
+// `scene` is a name in the library or a path. Throws InputError, with the nearest name for an
+// unknown one. Each override is "key=value" (simulation.iterations=32, body.ball.mass=3,
+// gravity.acceleration=[0,-1,0]), typed and checked as the file is.
 Scene readScene(const std::string& scene, std::span<const std::string> overrides = {});
 Scene parseScene(const std::string& text, const std::string& path,
                  std::span<const std::string> overrides = {});

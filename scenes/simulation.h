@@ -34,6 +34,7 @@ class Simulation {
   physics::StepReport advance();
 
   int frame() const;
+  bool isFinite() const;  // false once a step met a number that is not finite; the frame stays
   const Scene& scene() const;
   const physics::World& world() const;
   FrameMetrics metrics() const;

@@ -1,0 +1,126 @@
+// Runs a scene's [[expect]] along a simulation, keeping the worst value of each.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenes/metrics.h"
+
+namespace scenes {
+namespace {
+
+// The largest and the smallest value so far, and when.
+struct Extremes {
+  double most = -std::numeric_limits<double>::infinity(), mostTime = 0;
+  double least = std::numeric_limits<double>::infinity(), leastTime = 0;
+  bool seen = false;
+
+  void include(double value, double time) {
+    if (!seen || value > most || std::isnan(value)) most = value, mostTime = time;
+    if (!seen || value < least || std::isnan(value)) least = value, leastTime = time;
+    seen = true;
+  }
+};
+
+struct Watch {
+  Expectation expectation;
+  const Metric* metric = nullptr;
+  std::vector<physics::BodyId> bodies;
+  Extremes extremes;
+};
+
+bool inSpan(const Expectation& expectation, double time) {
+  constexpr double kSlack = 1e-9;  // s; times are frame / fps
+  return time >= expectation.from.value_or(time) - kSlack &&
+         time <= expectation.to.value_or(time) + kSlack;
+}
+
+std::vector<physics::BodyId> matching(const Simulation& simulation, const std::string& pattern) {
+  std::vector<physics::BodyId> bodies;
+  if (const physics::BodyId exact = simulation.findBody(pattern); exact >= 0) return {exact};
+  for (physics::BodyId b = 1; b < simulation.world().bodyCount(); ++b) {
+    if (matches(pattern, simulation.bodyName(b))) bodies.push_back(b);
+  }
+  return bodies;
+}
+
+std::string withUnit(double value, const char* unit) {
+  return *unit == '\0' ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} {}", value, unit);
+}
+
+Checker::Verdict judge(const Watch& watch) {
+  Checker::Verdict verdict;
+  verdict.expectation = watch.expectation;
+  Expectation wanted = watch.expectation;
+  if (!wanted.atMost && !wanted.atLeast) wanted.atLeast = 1;  // `finite` needs no bound
+  const Extremes& e = watch.extremes;
+  const bool tooMuch = wanted.atMost && !(e.most <= *wanted.atMost);
+  const bool tooLittle = wanted.atLeast && !(e.least >= *wanted.atLeast);
+  const bool upper = tooMuch || (wanted.atMost && !tooLittle);
+  verdict.holds = e.seen && !tooMuch && !tooLittle;
+  verdict.value = upper ? e.most : e.least;
+  verdict.atTime = upper ? e.mostTime : e.leastTime;
+  const char* unit = watch.metric->unit;
+  const std::string of = wanted.body.empty() ? "" : " of " + wanted.body;
+  if (!e.seen) {
+    verdict.text = fmt::format("{}{}: no frame in its span", wanted.metric, of);
+    return verdict;
+  }
+  verdict.text =
+      fmt::format("{}{} {}{} {} {}", wanted.metric, of, withUnit(verdict.value, unit),
+                  verdict.holds ? "" : ", expected",
+                  upper ? "<=" : ">=", withUnit(upper ? *wanted.atMost : *wanted.atLeast, unit));
+  return verdict;
+}
+
+}  // namespace
+
+struct Checker::Impl {
+  std::vector<Watch> watches;
+  std::vector<physics::Pose> startPoses;
+  FrameMetrics start;
+  double largestKinetic = 0;
+
+  void begin(const Simulation& simulation, const FrameMetrics& now) {
+    start = now;
+    startPoses = simulation.world().bodies().pose;
+    for (Watch& watch : watches) {
+      if (!watch.expectation.body.empty()) {
+        watch.bodies = matching(simulation, watch.expectation.body);
+      }
+    }
+  }
+};
+
+Checker::Checker(const Scene& scene) : impl_(std::make_unique<Impl>()) {
+  for (const Expectation& expectation : scene.expectations) {
+    impl_->watches.push_back({expectation, findMetric(expectation.metric), {}, {}});
+  }
+}
+
+Checker::~Checker() = default;
+
+void Checker::observe(const Simulation& simulation) {
+  const FrameMetrics now = simulation.metrics();
+  if (impl_->startPoses.empty()) impl_->begin(simulation, now);
+  impl_->largestKinetic = std::max(impl_->largestKinetic, now.kinetic);
+  for (Watch& watch : impl_->watches) {
+    if (!inSpan(watch.expectation, now.time)) continue;
+    const Sample sample{simulation,  now, impl_->start, impl_->startPoses, impl_->largestKinetic,
+                        watch.bodies};
+    if (watch.metric->scene != nullptr) {
+      watch.extremes.include(watch.metric->scene(sample), now.time);
+      continue;
+    }
+    for (const physics::BodyId body : watch.bodies) {
+      watch.extremes.include(watch.metric->body(sample, body), now.time);
+    }
+  }
+}
+
+std::vector<Checker::Verdict> Checker::verdicts() const {
+  std::vector<Verdict> verdicts;
+  for (const Watch& watch : impl_->watches) verdicts.push_back(judge(watch));
+  return verdicts;
+}
+
+}  // namespace scenes

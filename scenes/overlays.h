@@ -1,0 +1,16 @@
+// What is drawn over the bodies on request: contacts, impulses, joints, centres of mass, and the
+// HUD.
+#pragma once
+
+#include "render/picture.h"
+#include "scenes/simulation.h"
+
+namespace scenes {
+
+// `scale`: size of the scene [m], which lengths of arrows are fractions of.
+void drawOverlays(const Simulation& simulation, const Overlays& overlays, double scale,
+                  render::Picture& picture);
+
+render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics>& history);
+
+}  // namespace scenes

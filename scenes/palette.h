@@ -1,0 +1,29 @@
+// Colours that tell bodies apart, for readers who do not see all of them: after Okabe and Ito,
+// toned for print.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/picture.h"
+
+namespace scenes {
+
+// How the bodies of one generator are coloured.
+enum class Pattern {
+  kSingle,     // each body alone: the next hue
+  kAlternate,  // two tones of one hue in turn
+  kVaried,     // all hues in turn
+  kHue,        // one hue for all
+};
+
+// `hue` counts families of bodies, `index` the bodies within one.
+render::Color familyColor(Pattern pattern, int hue, int index);
+render::Color fixedColor();
+
+// "#rrggbb" or the name of a hue.
+std::optional<render::Color> namedColor(const std::string& text);
+std::vector<std::string> colorNames();
+
+}  // namespace scenes

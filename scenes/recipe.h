@@ -1,0 +1,85 @@
+// What a scene file's tables become: steps that build a World, its names, its colours and its
+// scripts.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "physics/world.h"
+#include "scenes/palette.h"
+#include "scenes/scene.h"
+#include "scenes/simulation.h"
+#include "scenes/table_reader.h"
+
+namespace scenes {
+
+struct Simulation::Appearance {
+  std::vector<render::Color> colors;                        // by BodyId
+  std::vector<std::shared_ptr<const render::Mesh>> meshes;  // by BodyId, null but for convex bodies
+};
+
+// Drives of one figure that follow poses over time.
+struct PoseScript {
+  struct Key {
+    double time = 0;                     // s
+    std::vector<physics::Quat> targets;  // one per drive
+  };
+  std::vector<int> drives;
+  std::vector<Key> keys;  // times increase
+};
+
+// A world under construction and all that goes with it.
+struct Built {
+  explicit Built(const physics::Settings& settings);
+  physics::World world;
+  std::vector<std::string> names;              // by BodyId
+  std::map<std::string, physics::BodyId> ids;  // names, and second names such as "chain.end"
+  Simulation::Appearance appearance;
+  std::vector<PoseScript> scripts;
+  int families = 0;  // hues given out so far
+
+  // Names and colours the body; throws std::invalid_argument where the name is taken.
+  void name(physics::BodyId body, const std::string& name, const render::Color& color);
+  void alias(physics::BodyId body, const std::string& name);
+  // "name.0", "name.1", ... in the colours of a family of its own.
+  void nameAll(const std::vector<physics::BodyId>& bodies, const std::string& name,
+               Pattern pattern);
+};
+
+using Step = std::function<void(Built&)>;
+
+struct Scene::Content {
+  std::vector<Step> steps;
+};
+
+// Collects steps. Each runs at once on a trial world, so that what the World refuses is reported at
+// the place in the file, and so that constraints find the bodies' names.
+class Recipe {
+ public:
+  Recipe(const Scene& scene, Context& context);  // `context` gets to know the bodies' names
+  Recipe(const Recipe&) = delete;
+  void add(const TableReader& reader, Step step);
+  const Built& trial() const { return trial_; }
+  unsigned nextSeed();  // a seed for each generator, from the scene's
+  Scene::Content take() { return std::move(content_); }
+
+ private:
+  Built trial_;
+  Scene::Content content_;
+  unsigned seed_;
+};
+
+// A word of the scene file that stands for an array of tables.
+struct Word {
+  const char* name;
+  void (*read)(TableReader& reader, Recipe& recipe);
+};
+std::span<const Word> bodyWords();        // body, and every generator
+std::span<const Word> constraintWords();  // read after all bodies have their names
+
+// The name of an element: its `name`, else its word.
+std::string readName(TableReader& reader, const std::string& otherwise);
+
+}  // namespace scenes

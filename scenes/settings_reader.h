@@ -1,0 +1,46 @@
+// The tables of a scene file that make no bodies.
+#pragma once
+
+#include "scenes/scene.h"
+#include "scenes/table_reader.h"
+
+namespace scenes {
+
+// [simulation] [gravity] [contact] -> scene.settings, fps and seed. Contacts are on where there is
+// a [contact] table, a plane or a body with friction of its own, unless `[contact] enabled =
+// false`.
+void readSettings(TableReader& root, Scene& scene);
+
+// [camera] [overlays] [golden] and [[expect]].
+void readPresentation(TableReader& root, Scene& scene);
+
+// A table by its word: calls read(reader) and checks that every key was known. Nothing where
+// absent.
+template <class Read>
+void readTable(TableReader& parent, const char* word, Read read) {
+  const Value* value = parent.take(word);
+  if (value == nullptr) return;
+  if (!value->isTable())
+    failExpected(parent.spot({word}), *value, std::string("a table [") + word + "]");
+  TableReader reader(*value, word, parent.context());
+  read(reader);
+  reader.finish();
+}
+
+// An array of tables by its word: the same for each element.
+template <class Read>
+void readTables(TableReader& parent, const char* word, Read read) {
+  const Value* value = parent.take(word);
+  if (value == nullptr) return;
+  if (!value->isArray()) {
+    failExpected(parent.spot({word}), *value, std::string("tables [[") + word + "]]");
+  }
+  for (const Value& item : value->items) {
+    if (!item.isTable()) failExpected(parent.spot({word}), item, "a table");
+    TableReader reader(item, word, parent.context());
+    read(reader);
+    reader.finish();
+  }
+}
+
+}  // namespace scenes

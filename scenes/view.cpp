@@ -1,0 +1,189 @@
+// World + Appearance -> Picture: an instance per body, a ground, a camera, and what was asked to be
+// seen.
+#include "scenes/view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/camera.h"
+#include "scenes/metrics.h"
+#include "scenes/overlays.h"
+#include "scenes/recipe.h"
+
+namespace scenes {
+namespace {
+
+using physics::BodyId;
+using physics::Motion;
+using physics::Vec3;
+using render::Primitive;
+using render::Vec3f;
+
+bool isGround(const physics::Bodies& bodies, BodyId b) {
+  const auto* plane = std::get_if<physics::Plane>(&bodies.shape[b]);
+  return plane != nullptr && (bodies.pose[b].q * plane->normal).y() > 1 - 1e-9;
+}
+
+bool isPlane(const physics::Bodies& bodies, BodyId b) {
+  return std::holds_alternative<physics::Plane>(bodies.shape[b]);
+}
+
+bool isEmpty(const MotionBounds& box) { return (box.low.array() > box.high.array()).any(); }
+double radiusOf(const MotionBounds& box) { return 0.5 * (box.high - box.low).norm(); }
+Vec3 centreOf(const MotionBounds& box) { return 0.5 * (box.low + box.high); }
+
+void include(const physics::Bodies& bodies, BodyId b, MotionBounds& box) {
+  const double radius = physics::boundingRadius(bodies.shape[b]);
+  box.low = box.low.cwiseMin(bodies.pose[b].x - Vec3::Constant(radius));
+  box.high = box.high.cwiseMax(bodies.pose[b].x + Vec3::Constant(radius));
+}
+
+// What the picture is about: the motion, and fixed things of its size that stand around it.
+MotionBounds stageOf(const Simulation& simulation, const MotionBounds& motion) {
+  MotionBounds stage = motion;
+  if (isEmpty(stage)) stage.include(simulation);
+  const physics::Bodies& bodies = simulation.world().bodies();
+  const double largest = isEmpty(stage) ? 1e9 : radiusOf(stage);
+  for (BodyId b = 1; b < bodies.size(); ++b) {
+    const bool wanted = matches(simulation.scene().camera.fit, simulation.bodyName(b));
+    if (!wanted || bodies.motion[b] != Motion::kStatic || isPlane(bodies, b)) continue;
+    if (physics::boundingRadius(bodies.shape[b]) <= largest) include(bodies, b, stage);
+  }
+  if (isEmpty(stage)) stage = {Vec3::Constant(-1), Vec3::Constant(1)};
+  return stage;
+}
+
+// The highest level plane, or else a stage a little below all that moves.
+render::Ground groundOf(const physics::Bodies& bodies, const MotionBounds& stage) {
+  render::Ground ground;
+  const double radius = radiusOf(stage);
+  double height = -std::numeric_limits<double>::infinity();
+  for (BodyId b = 1; b < bodies.size(); ++b) {
+    if (!isGround(bodies, b)) continue;
+    const double offset = std::get<physics::Plane>(bodies.shape[b]).offset;
+    height = std::max(height, bodies.pose[b].x.y() + offset);
+  }
+  if (!std::isfinite(height)) height = stage.low.y() - 0.1 * radius;
+  ground.height = static_cast<float>(height);
+  ground.spacing = static_cast<float>(std::pow(10.0, std::round(std::log10(radius / 5))));
+  return ground;
+}
+
+// A plane that is no ground: a plate under the stage's centre, its upper face in the plane.
+render::Instance plate(const physics::Plane& plane, const physics::Pose& pose,
+                       const MotionBounds& stage) {
+  const Vec3 normal = pose.q * plane.normal;
+  const double radius = radiusOf(stage), thickness = 0.02 * radius;
+  const Vec3 centre = centreOf(stage);
+  const double above = normal.dot(centre - pose.x) - plane.offset;
+  render::Instance plate;
+  plate.size = Vec3(2.4 * radius, thickness, 2.4 * radius).cast<float>();
+  plate.position = (centre - (above + 0.5 * thickness) * normal).cast<float>();
+  plate.orientation = physics::Quat::FromTwoVectors(Vec3::UnitY(), normal).cast<float>();
+  return plate;
+}
+
+void setShape(const physics::Shape& shape, double pointDiameter, render::Instance& instance) {
+  const auto rounded = [&](Primitive primitive, double radius, double length) {
+    instance.primitive = primitive;
+    const double diameter = 2 * radius;
+    instance.size = Vec3(diameter, length, diameter).cast<float>();
+  };
+  if (const auto* box = std::get_if<physics::Box>(&shape)) {
+    instance.size = box->size.cast<float>();
+  } else if (const auto* sphere = std::get_if<physics::Sphere>(&shape)) {
+    rounded(Primitive::kSphere, sphere->radius, 2 * sphere->radius);
+    instance.marked = true;
+  } else if (const auto* capsule = std::get_if<physics::Capsule>(&shape)) {
+    rounded(Primitive::kCapsule, capsule->radius, capsule->length);
+  } else if (const auto* cylinder = std::get_if<physics::Cylinder>(&shape)) {
+    rounded(Primitive::kCylinder, cylinder->radius, cylinder->length);
+    instance.marked = true;
+  } else if (std::holds_alternative<physics::Convex>(shape)) {
+    instance.primitive = Primitive::kMesh;
+  } else {
+    rounded(Primitive::kSphere, 0.5 * pointDiameter, pointDiameter);
+  }
+}
+
+void drawBodies(const Simulation& simulation, const MotionBounds& stage, render::Picture& picture) {
+  const physics::Bodies& bodies = simulation.world().bodies();
+  const Simulation::Appearance& appearance = simulation.appearance();
+  for (BodyId b = 1; b < bodies.size(); ++b) {
+    if (isGround(bodies, b)) continue;
+    render::Instance instance;
+    if (const auto* plane = std::get_if<physics::Plane>(&bodies.shape[b])) {
+      instance = plate(*plane, bodies.pose[b], stage);
+    } else {
+      setShape(bodies.shape[b], 0.025 * radiusOf(stage), instance);
+      instance.position = bodies.pose[b].x.cast<float>();
+      instance.orientation = bodies.pose[b].q.cast<float>();
+    }
+    instance.mesh = appearance.meshes[b];
+    instance.color = appearance.colors[b];
+    picture.instances.push_back(std::move(instance));
+  }
+}
+
+// Springs and distances have no body of their own: a thin rod from point to point.
+void drawRods(const Simulation& simulation, double radius, render::Picture& picture) {
+  for (const physics::JointReport& joint : simulation.world().joints()) {
+    if (joint.kind != physics::SpringDef::kWord && joint.kind != physics::DistanceDef::kWord)
+      continue;
+    const Vec3 along = joint.pointB - joint.pointA;
+    if (along.norm() < 1e-9) continue;
+    const double diameter = 0.012 * radius;
+    render::Instance rod;
+    rod.primitive = Primitive::kCylinder;
+    rod.size = Vec3(diameter, along.norm(), diameter).cast<float>();
+    rod.position = (0.5 * (joint.pointA + joint.pointB)).cast<float>();
+    rod.orientation = physics::Quat::FromTwoVectors(Vec3::UnitY(), along).cast<float>();
+    rod.color = {0.3f, 0.3f, 0.3f, 1};
+    picture.instances.push_back(std::move(rod));
+  }
+}
+
+void setCamera(const Simulation& simulation, const MotionBounds& stage, double aspect,
+               render::Picture& picture) {
+  const CameraDef& def = simulation.scene().camera;
+  if (def.keys.empty()) {
+    picture.camera = fitCamera(def, stage, aspect, picture.ground.height);
+    picture.focusCenter = centreOf(stage).cast<float>();
+    picture.focusRadius = static_cast<float>(radiusOf(stage));
+    return;
+  }
+  const double time = static_cast<double>(simulation.frame()) / simulation.scene().fps;
+  picture.camera = keyCamera(def.keys, time);
+  const float distance = (picture.camera.eye - picture.camera.target).norm();
+  const double slope = std::tan(picture.camera.fieldOfViewDegrees * M_PI / 360);
+  picture.focusCenter = picture.camera.target;
+  picture.focusRadius = distance * static_cast<float>(slope * std::max(1.0, aspect));
+}
+
+}  // namespace
+
+void MotionBounds::include(const Simulation& simulation) {
+  const physics::Bodies& bodies = simulation.world().bodies();
+  const std::string& fit = simulation.scene().camera.fit;
+  for (BodyId b = 1; b < bodies.size(); ++b) {
+    if (bodies.motion[b] == Motion::kStatic || isPlane(bodies, b)) continue;
+    if (matches(fit, simulation.bodyName(b))) scenes::include(bodies, b, *this);
+  }
+}
+
+bool needsMotionBounds(const Scene& scene) { return scene.camera.keys.empty(); }
+
+render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
+                     const ViewOptions& options, const std::vector<FrameMetrics>& history) {
+  const MotionBounds stage = stageOf(simulation, bounds);
+  render::Picture picture;
+  picture.ground = groundOf(simulation.world().bodies(), stage);
+  setCamera(simulation, stage, options.aspect, picture);
+  drawBodies(simulation, stage, picture);
+  drawRods(simulation, radiusOf(stage), picture);
+  drawOverlays(simulation, options.overlays, picture.focusRadius, picture);
+  if (options.hud) picture.hud = makeHud(simulation, history);
+  return picture;
+}
+
+}  // namespace scenes
