@@ -70,6 +70,13 @@ constexpr bool isForce() {
   return requires { C::kForce; };
 }
 
+// Equalities without bounds: the rows that the direct method takes.
+template <class C>
+bool isEquality(const C& item) {
+  if constexpr (requires { item.isEquality(); }) return item.isEquality();
+  return false;
+}
+
 template <class C>
 Form formOf(const C& item) {
   if constexpr (requires { item.form; }) return item.form;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/effects/restitution.h"
+#include "physics/methods/direct.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
 #include "physics/world_impl.h"
 
@@ -32,14 +33,18 @@ void findContactsAhead(World::Impl& w, double remaining) {
   findContacts(w, w.ahead);
 }
 
+void iterate(World::Impl& w, double h, StepReport& report) {
+  w.settings.method == Method::kDirect ? direct(w, h, report) : nonlinearGaussSeidel(w, h, report);
+}
+
 void solveConstraints(World::Impl& w, double h, StepReport& report) {
-  nonlinearGaussSeidel(w, h, report);
+  iterate(w, h, report);
   // A body that was hit may have left the bounds in which contacts were looked for: look where it
   // went.
   for (int look = 1; look < kMostLooks && !report.notFinite && contactsOutdated(w); ++look) {
     findContacts(w, w.bodies.pose);
     for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
-    nonlinearGaussSeidel(w, h, report);
+    iterate(w, h, report);
   }
 }
 
@@ -87,6 +92,7 @@ StepReport World::step() {
     if (w.settings.contact && (k == 0 || contactsOutdated(w))) {
       findContactsAhead(w, w.settings.dt - (k + 1) * h);
     }
+    if (w.settings.method == Method::kDirect) prepareDirect(w);
     prepareConstraints(w, h);        // multipliers of the last substep, gaps and anchors at X^t
     solveConstraints(w, h, report);  // Delta X (52),(53)
     finish(w, h);                    // (43)-(46)

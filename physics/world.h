@@ -20,7 +20,10 @@
 
 namespace physics {
 
-enum class Method { kNonlinearGaussSeidel };
+enum class Method {
+  kNonlinearGaussSeidel,  // (52)
+  kDirect,                // (42) for joints, Gauss-Seidel for what has bounds
+};
 enum class Stepping { kPaper };
 
 struct ContactSettings {

@@ -5,6 +5,7 @@
 #include "physics/constraints/contact.h"
 #include "physics/effects/free_motion.h"
 #include "physics/kinds.h"
+#include "physics/methods/joint_system.h"
 #include "physics/world.h"
 
 namespace physics {
@@ -17,6 +18,10 @@ struct World::Impl {
   Kinds kinds;
   Collider collider;
   Contacts contacts;
+  JointSystem joints;  // this and its scratch: the direct method only
+  std::vector<JointRows> jointRows;
+  std::vector<Vec3> jointChange;
+  std::vector<JointMotion> jointMotion;
   std::vector<Pose> ahead;  // scratch: poses at the end of the step, as far as now is known
 
   struct Snapshot {  // the last good state

@@ -38,6 +38,7 @@ struct Axle {
   Mat3 frameJ = Mat3::Identity();  // columns u, v, n_j in the body frame of j
   Form form = Form::kVector;
 
+  bool isEquality() const { return true; }
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
 };
 

@@ -37,6 +37,7 @@ struct BallSocket {
   std::array<Vec3, 2> anchors{Vec3::Zero(), Vec3::Zero()};  // body frames
   Form form = Form::kVector;
 
+  bool isEquality() const { return true; }
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
 };
 

@@ -36,6 +36,7 @@ struct Distance {
   double length = 1;
   bool rope = false;
 
+  bool isEquality() const { return !rope; }
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
 };
 

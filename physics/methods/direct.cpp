@@ -1,0 +1,192 @@
+// The direct method.
+#include "physics/methods/direct.h"
+
+#include <Eigen/LU>
+
+#include "physics/methods/nonlinear_gauss_seidel.h"
+
+namespace physics {
+namespace {
+
+// Keeps the factor regular where rows repeat each other (loops): relative to the joint's own A.
+// NOTES 3.5
+constexpr double kRedundancy = 1e-12;
+
+template <class F>
+void forEachJoint(World::Impl& world, F&& f) {
+  std::size_t next = 0;
+  forEachKind(world.kinds, [&](auto& kind) {
+    auto& set = kind.set;
+    for (std::size_t k = 0; k < set.items.size(); ++k) {
+      if (isEquality(set.items[k])) f(set.items[k], set.lambda[k], set.tuned[k], next++);
+    }
+  });
+}
+
+template <class C>
+JointRows rowsOf(const C& item, const Bodies& bodies, double dt) {
+  Row<C::kBodies, C::kRows> row;
+  item.evaluate({bodies.pose, bodies.start, dt}, row);
+  JointRows joint;
+  joint.bodies = item.bodies;
+  joint.rows = C::kRows;
+  joint.right.head(C::kRows) = -row.c;
+  for (int b = 0; b < 2; ++b) {
+    joint.linear[b].setZero();
+    joint.angular[b].setZero();
+    if constexpr (C::kLinear) joint.linear[b].template topRows<C::kRows>() = row.linear[b];
+    joint.angular[b].template topRows<C::kRows>() = row.angular[b];
+  }
+  return joint;
+}
+
+// Adds J^T lambda, and K of a force that acts at a point of the body: along the arm it stiffens the
+// turn.
+template <class C>
+void load(const C& item, const JointRows& joint, const Vec3& lambda, const Bodies& bodies,
+          std::span<JointMotion> motion) {
+  for (int b = 0; b < 2; ++b) {
+    JointMotion& body = motion[item.bodies[b]];
+    const Vec3 force = joint.linear[b].transpose() * lambda;
+    body.impulse += force;
+    body.torque += joint.angular[b].transpose() * lambda;
+    if constexpr (C::kLinear) {
+      const Vec3 arm = bodies.pose[item.bodies[b]].q * item.anchors[b];
+      const double length2 = arm.squaredNorm(), along = force.dot(arm);
+      if (along > 0) {
+        body.stiffnessAngular += along * (Mat3::Identity() - arm * arm.transpose() / length2);
+      }
+    }
+    if constexpr (requires { item.length; }) {  // a link under tension also resists going sideways
+      const Vec3 d = joint.linear[b].row(0).transpose();
+      if (lambda[0] < 0 && item.length > 0) {
+        body.stiffnessLinear -= lambda[0] / item.length * (Mat3::Identity() - d * d.transpose());
+      }
+    }
+  }
+}
+
+void invertMasses(World::Impl& world) {
+  for (int i = 0; i < world.bodies.size(); ++i) {
+    JointMotion& m = world.jointMotion[i];
+    const InverseMass& inverse = world.bodies.inverse[i];
+    m.inverseLinear = inverse.m * Mat3::Identity();
+    m.inverseAngular = inverse.inertia;
+    if (inverse.m == 0) continue;
+    const double mass = world.bodies.mass[i];
+    if (!m.stiffnessLinear.isZero(0)) {
+      m.inverseLinear = (mass * Mat3::Identity() + m.stiffnessLinear).inverse();
+    }
+    m.lagLinear = m.inverseLinear * (mass * m.dx - m.impulse);
+    if (world.bodies.inverseInertia[i].isZero(0)) continue;
+    const Mat3 rotation = world.bodies.pose[i].q.toRotationMatrix();
+    const Mat3 inertia = rotation * world.bodies.inertia[i].asDiagonal() * rotation.transpose();
+    m.inverseAngular = (inertia + m.stiffnessAngular).inverse();
+    m.lagAngular = m.inverseAngular * (inertia * m.dtheta - m.torque);
+  }
+}
+
+void respond(const World::Impl& world, double regularisation, const Vec3& lambda,
+             JointRows& joint) {
+  double trace = 0;
+  for (int b = 0; b < 2; ++b) {
+    const JointMotion& m = world.jointMotion[joint.bodies[b]];
+    joint.responseLinear[b] = m.inverseLinear * joint.linear[b].transpose();
+    joint.responseAngular[b] = m.inverseAngular * joint.angular[b].transpose();
+    trace += joint.linear[b].cwiseProduct(joint.responseLinear[b].transpose()).sum() +
+             joint.angular[b].cwiseProduct(joint.responseAngular[b].transpose()).sum();
+    joint.right += joint.linear[b] * m.lagLinear + joint.angular[b] * m.lagAngular;
+  }
+  const double mean = trace / joint.rows;
+  joint.alpha = mean > 0 ? std::max(regularisation, kRedundancy) * mean : 1;  // 1: nothing can move
+  if (regularisation > 0) joint.right -= joint.alpha * lambda;
+}
+
+// All joints at the present poses, and what their present multipliers do.
+void gather(World::Impl& world, double dt) {
+  for (JointMotion& m : world.jointMotion) {
+    const JointMotion displaced{m.dx, m.dtheta};
+    m = displaced;
+  }
+  world.jointRows.clear();
+  int first = 0;
+  forEachJoint(world, [&](auto& item, auto& lambda, auto&, std::size_t) {
+    JointRows joint = rowsOf(item, world.bodies, dt);
+    Vec3 total = Vec3::Zero();
+    total.head(joint.rows) = lambda.total;
+    load(item, joint, total, world.bodies, world.jointMotion);
+    joint.first = first;
+    first += joint.rows;
+    world.jointRows.push_back(joint);
+  });
+  invertMasses(world);
+  forEachJoint(world, [&](auto&, auto& lambda, auto& tuned, std::size_t k) {
+    Vec3 total = Vec3::Zero();
+    total.head(world.jointRows[k].rows) = lambda.total;
+    respond(world, tuned.regularisation, total, world.jointRows[k]);
+  });
+}
+
+void apply(World::Impl& world) {
+  forEachJoint(world, [&](auto&, auto& lambda, auto&, std::size_t k) {
+    lambda.total += world.jointChange[k]
+                        .template head<std::decay_t<decltype(lambda.total)>::RowsAtCompileTime>();
+  });
+  for (JointMotion& m : world.jointMotion) {
+    m.impulse = -m.lagLinear;  // from here on: the displacement of this Newton step
+    m.torque = -m.lagAngular;
+  }
+  for (std::size_t k = 0; k < world.jointRows.size(); ++k) {
+    const JointRows& joint = world.jointRows[k];
+    for (int b = 0; b < 2; ++b) {
+      JointMotion& m = world.jointMotion[joint.bodies[b]];
+      m.impulse += joint.responseLinear[b] * world.jointChange[k];
+      m.torque += joint.responseAngular[b] * world.jointChange[k];
+    }
+  }
+  for (int i = 0; i < world.bodies.size(); ++i) {
+    JointMotion& m = world.jointMotion[i];
+    if (world.bodies.inverse[i].m == 0) continue;
+    m.dx += m.impulse;
+    m.dtheta += m.torque;
+    world.bodies.shift[i] += m.impulse;
+    displace(world.bodies.pose[i], m.impulse, m.torque);
+  }
+}
+
+// One Newton step for all joints. False: the factor broke down or gave something not finite.
+bool newtonStep(World::Impl& world, double dt) {
+  gather(world, dt);
+  if (world.jointRows.empty()) return true;
+  if (!world.joints.isLaidOutFor(world.jointRows.size())) {
+    world.joints.layOut(world.jointRows, world.bodies);
+  }
+  world.jointChange.resize(world.jointRows.size());
+  if (!world.joints.solve(world.jointRows, world.jointChange)) return false;
+  double sum = 0;
+  for (const Vec3& change : world.jointChange) sum += change.sum();
+  if (!std::isfinite(sum)) return false;
+  apply(world);
+  return true;
+}
+
+}  // namespace
+
+void prepareDirect(World::Impl& world) {
+  world.jointMotion.assign(world.bodies.pose.size(), JointMotion{});
+}
+
+void direct(World::Impl& world, double dt, StepReport& report) {
+  for (int k = 0; k < world.settings.iterations; ++k) {
+    if (k > 0) refreshInertia(world.bodies);
+    if (!newtonStep(world, dt)) {
+      report.notFinite = {report.substeps, world.jointRows.front().bodies[1], "joints together"};
+      return;
+    }
+    report.constraintEvaluations += static_cast<std::int64_t>(world.jointRows.size());
+    if (!sweep(world, dt, report)) return;
+    ++report.iterations;
+  }
+}
+
+}  // namespace physics

@@ -1,0 +1,55 @@
+// The linear system (J M^-1 J^T + alpha) dlambda = right of all joints together, sparse.
+// Two joints meet in it where they share a body that moves. Its factor LDL^T in a minimum-degree
+// order has no fill for chains and trees, so that its cost is linear in the joints; a loop adds a
+// little.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "physics/body.h"
+#include "physics/constraint.h"
+
+namespace physics {
+
+// The rows of one joint, padded to three.
+struct JointRows {
+  static constexpr int kMostRows = 3;
+  std::array<BodyId, 2> bodies{};
+  int first = 0, rows = 0;
+  double alpha = 0;
+  Vec3 right = Vec3::Zero();                            // -(c + alpha lambda) + J M^-1 r
+  std::array<Mat3, 2> linear, angular;                  // J, one row per constraint row
+  std::array<Mat3, 2> responseLinear, responseAngular;  // (M + K)^-1 J^T, one column per row
+};
+
+// What all joints together do to one body in a substep.
+struct JointMotion {
+  Vec3 dx = Vec3::Zero(), dtheta = Vec3::Zero();       // displacement so far
+  Vec3 impulse = Vec3::Zero(), torque = Vec3::Zero();  // J^T lambda at the present pose, times h^2
+  Mat3 stiffnessLinear = Mat3::Zero(), stiffnessAngular = Mat3::Zero();  // K, geometric
+  Mat3 inverseLinear = Mat3::Zero(), inverseAngular = Mat3::Zero();      // (M + K)^-1
+  Vec3 lagLinear = Vec3::Zero(), lagAngular = Vec3::Zero();  // (M + K)^-1 (M dX - J^T lambda)
+};
+
+class JointSystem {
+ public:
+  JointSystem();
+  ~JointSystem();
+  JointSystem(JointSystem&&) noexcept;
+  JointSystem& operator=(JointSystem&&) noexcept;
+
+  // Takes the joints' bodies and row counts; needed again only when these change.
+  void layOut(std::span<const JointRows> joints, const Bodies& bodies);
+  bool isLaidOutFor(std::size_t joints) const;
+
+  // Writes the change of every joint's multipliers to `change`. False when the factor breaks down.
+  bool solve(std::span<const JointRows> joints, std::span<Vec3> change);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace physics
