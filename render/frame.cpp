@@ -102,7 +102,7 @@ void setShadow(Frame& frame, const Picture& picture, const Detail& detail) {
   frame.block.towardLight.head<3>() = -along;
   frame.block.towardLight.w() = 0;
   frame.block.shadow << (picture.light.shadows ? 1.0f : 0.0f), 1.2f * texel,
-      1.0f / static_cast<float>(detail.shadowSize), static_cast<float>(detail.shadowTaps);
+      1.4f / static_cast<float>(detail.shadowSize), static_cast<float>(detail.shadowTaps);
   // y = height on the ray of (u, v): the inverse of m has the orthogonal rows of m as columns.
   const Vec3f perMap = 2 * radius * Vec3f(side.y(), up.y(), along.y());
   const float middle = picture.focusCenter.y() - 0.5f * perMap.sum();

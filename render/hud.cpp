@@ -13,7 +13,8 @@ namespace {
 // All in pixels at 720 lines.
 constexpr float kMargin = 16, kPadding = 12, kWidth = 268;
 constexpr float kTitleSize = 17, kTitleStep = 26, kRowSize = 14, kRowStep = 20;
-constexpr float kPlotSize = 12, kPlotTitleStep = 18, kPlotHeight = 76, kPlotStep = 108;
+constexpr float kPlotSize = 12, kPlotTitleStep = 18, kPlotHeight = 76, kPlotStep = 108,
+                kGutter = 34;
 
 const Color kInk(0.13f, 0.14f, 0.16f, 1), kQuiet(0.42f, 0.43f, 0.46f, 1);
 const Color kPanel(1, 1, 1, 0.86f), kRim(0.80f, 0.81f, 0.83f, 1), kPaper(0.985f, 0.985f, 0.99f, 1);
@@ -116,7 +117,7 @@ void drawPlotTitle(const Pen& pen, const Plot& plot, float x, float y) {
 void drawPlot(const Pen& pen, const Plot& plot, float x, float y) {
   drawPlotTitle(pen, plot, x, y + kPlotSize);
   const AxisRange range = axisRangeOf(plot);
-  const Pixel from = pen.at(x, y + kPlotTitleStep);
+  const Pixel from = pen.at(x + kGutter, y + kPlotTitleStep);
   const Pixel to = pen.at(x + kWidth - 2 * kPadding, y + kPlotTitleStep + kPlotHeight);
   pen.canvas().fill(from, to, kPaper);
   const int rules = plot.logarithmic ? static_cast<int>(std::lround(range.high - range.low)) : 4;
@@ -129,8 +130,9 @@ void drawPlot(const Pen& pen, const Plot& plot, float x, float y) {
   for (const Plot::Curve& curve : plot.curves)
     drawCurve(pen, plot, curve, range, spanOf(plot), from, to);
   pen.canvas().outline(from, to, kRim, std::max(1.0f, std::round(pen.scale())));
-  pen.left(x + 4, y + kPlotTitleStep + kPlotSize + 1, kPlotSize - 1, kQuiet, range.highText);
-  pen.left(x + 4, y + kPlotTitleStep + kPlotHeight - 5, kPlotSize - 1, kQuiet, range.lowText);
+  const float gutter = x + kGutter - 4;
+  pen.right(gutter, y + kPlotTitleStep + kPlotSize - 3, kPlotSize - 1, kQuiet, range.highText);
+  pen.right(gutter, y + kPlotTitleStep + kPlotHeight, kPlotSize - 1, kQuiet, range.lowText);
 }
 
 }  // namespace

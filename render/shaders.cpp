@@ -58,13 +58,16 @@ flat in vec4 vTint;
 flat in float vMarked;
 out vec4 color;
 
-// The loop's length is data: a software rasteriser skips it where no shadow can be seen.
+// Taps on a square. Two opposite corners that agree speak for all; and the loop's length is data:
+// a software rasteriser leaves it as soon as no pixel of a group needs more.
 float lit(float facing) {
-  int side = int(shadow.w), count = facing > 0.0 ? side * side : 0;
-  float sum = 0.0;
+  float side = shadow.w, sum = 0.0;
+  int count = facing > 0.0 ? int(side * side) : 0;
   for (int i = 0; i < count; ++i) {
-    vec2 tap = (vec2(i % side, i / side) - 0.5 * float(side - 1)) * shadow.z;
+    float k = i == 0 ? 0.0 : float(count - i), row = floor((k + 0.5) / side);
+    vec2 tap = (vec2(k - row * side, row) - 0.5 * (side - 1.0)) * shadow.z;
     sum += textureLod(shadowMap, vec3(vInShadow.xy + tap, vInShadow.z), 0.0);
+    if (i == 1 && abs(sum - 1.0) == 1.0) return 0.5 * sum;
   }
   return count > 0 ? sum / float(count) : 1.0;
 }
@@ -95,7 +98,7 @@ void main() {
   float height = max(vWorld.y - ground.x, 0.0) / (0.12 * pixels.w);
   float contact = ground.y > 0.0 ? (0.5 - 0.5 * n.y) / (1.0 + height * height) : 0.0;
   float aside = n.x * towardLight.z - n.z * towardLight.x;  // faces that share the key light differ
-  float sky = 0.44 + 0.13 * n.y + 0.13 * aside + 0.12 * max(dot(n, toEye), 0.0);
+  float sky = 0.46 + 0.13 * n.y + 0.20 * aside + 0.06 * max(dot(n, toEye), 0.0);
   vec3 ambient = vec3(0.97, 0.99, 1.03) * sky * (1.0 - 0.55 * contact);
   vec3 albedo = vTint.rgb * (1.0 - 0.45 * vMarked * mark());
   float gloss = max(dot(n, normalize(toEye + towardLight.xyz)), 0.0);
@@ -163,7 +166,7 @@ uniform sampler2D source;
 out vec4 color;
 void main() {
   ivec2 at = 2 * ivec2(gl_FragCoord.xy);
-  vec2 uv = 0.5 * gl_FragCoord.xy * 4.0 * shadow.z;
+  vec2 uv = gl_FragCoord.xy / vec2(textureSize(source, 0) / 2);
   float ground = dot(shadowOfGround.xyz, vec3(uv, 1.0));
   vec2 sum = vec2(0.0);
   for (int i = 0; i < 4; ++i) {
