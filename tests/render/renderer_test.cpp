@@ -1,0 +1,200 @@
+// What is seen in the pictures that the renderer draws.
+#include "render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "render/compare.h"
+#include "sample.h"
+
+namespace render {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 120;
+
+Renderer& renderer() {
+  static Renderer shared({kWidth, kHeight, Quality::kStandard, ""});
+  return shared;
+}
+
+struct Rgb {
+  int r, g, b;
+  int sum() const { return r + g + b; }
+};
+
+Rgb at(const Image& image, int x, int y) {
+  const std::size_t i = 3 * static_cast<std::size_t>(y * image.width + x);
+  return {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
+}
+
+// A camera on the z axis looks at the origin; no ground.
+Picture bare() {
+  Picture picture;
+  picture.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 40};
+  picture.ground.visible = false;
+  picture.focusCenter = {0, 0, 0};
+  picture.focusRadius = 2;
+  return picture;
+}
+
+Instance box(const Vec3f& size, const Vec3f& position, const Color& color) {
+  Instance instance;
+  instance.size = size;
+  instance.position = position;
+  instance.color = color;
+  return instance;
+}
+
+const Color kRed(0.8f, 0.1f, 0.1f, 1), kBlack(0, 0, 0, 1);
+
+TEST(Renderer, ShowsTheBackgroundWhereNothingIs) {
+  Picture picture = bare();
+  picture.background = {0.2f, 0.4f, 0.6f, 1};
+  const Rgb pixel = at(renderer().draw(picture), 10, 10);
+  EXPECT_EQ(pixel.r, 51);
+  EXPECT_EQ(pixel.g, 102);
+  EXPECT_EQ(pixel.b, 153);
+}
+
+TEST(Renderer, ShowsABodyInItsColourAtItsPlace) {
+  Picture picture = bare();
+  picture.instances = {box({0.5f, 0.5f, 0.5f}, {1, 0.5f, 0}, kRed)};
+  const Image& image = renderer().draw(picture);
+  // Perspective: 120 px / (2 tan 20 deg * 5 m) = 33 px per metre, so the box is at (113, 43).
+  const Rgb body = at(image, 113, 43);
+  EXPECT_GT(body.r, 3 * body.g);
+  EXPECT_EQ(at(image, 47, 43).sum(), 3 * 255);
+  EXPECT_EQ(at(image, 113, 77).sum(), 3 * 255);
+}
+
+TEST(Renderer, DrawsACapsuleAsLongAsItsCapCentresAndTheCaps) {
+  Picture picture = bare();
+  Instance capsule = box({0.4f, 1, 0.4f}, {0, 0, 0}, kRed);
+  capsule.primitive = Primitive::kCapsule;
+  picture.instances = {capsule};
+  const Image& image = renderer().draw(picture);
+  EXPECT_LT(at(image, 80, 60 - 22).g, 200);  // 0.7 m = 23 px from the centre to the tip
+  EXPECT_EQ(at(image, 80, 60 - 25).g, 255);
+}
+
+TEST(Renderer, NearBodiesHideFarOnesInAnyOrder) {
+  Picture picture = bare();
+  const Instance red = box({1, 1, 0.1f}, {0, 0, 1}, kRed);
+  const Instance blue = box({1, 1, 0.1f}, {0, 0, -1}, {0.1f, 0.1f, 0.8f, 1});
+  picture.instances = {red, blue};
+  const Image first = renderer().draw(picture);
+  picture.instances = {blue, red};
+  EXPECT_EQ(first, renderer().draw(picture));
+  EXPECT_GT(at(first, 80, 60).r, at(first, 80, 60).b);
+}
+
+TEST(Renderer, TranslucentBodiesLetThoseBehindShow) {
+  Picture picture = bare();
+  const Instance back = box({1, 1, 0.1f}, {0, 0, -1}, {0.1f, 0.1f, 0.8f, 1});
+  Instance front = box({1, 1, 0.1f}, {0, 0, 1}, kRed);
+  front.color.w() = 0.5f;
+  picture.instances = {front, back};
+  const Rgb pixel = at(renderer().draw(picture), 80, 60);
+  EXPECT_GT(pixel.r, 60);
+  EXPECT_GT(pixel.b, 60);
+}
+
+TEST(Renderer, AMeshOfABoxLooksLikeTheBox) {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
+  mesh->normals.assign(4, Vec3f::UnitZ());
+  mesh->indices = {0, 1, 2, 0, 2, 3};
+  Picture picture = bare();
+  Instance sheet = box({2, 2, 2}, {0, 0, 0}, kRed);
+  sheet.primitive = Primitive::kMesh;
+  sheet.mesh = mesh;
+  picture.instances = {sheet};
+  const Rgb seen = at(renderer().draw(picture), 80, 60);
+  picture.instances = {box({2, 2, 0.001f}, {0, 0, 0}, kRed)};
+  const Rgb expected = at(renderer().draw(picture), 80, 60);
+  EXPECT_NEAR(seen.r, expected.r, 1);
+  EXPECT_NEAR(seen.g, expected.g, 1);
+}
+
+TEST(Renderer, TheGroundHidesWhatIsBelowItAndTakesShadow) {
+  Picture picture = bare();
+  picture.ground.visible = true;
+  picture.ground.spacing = 100;
+  picture.camera.eye = {0, 6, 0.1f};
+  picture.light.direction = {-0.5f, -1, 0};
+  const Rgb empty = at(renderer().draw(picture), 60, 60);
+  picture.instances = {box({0.5f, 0.5f, 0.5f}, {-0.5f, -1, 0}, kBlack)};
+  EXPECT_EQ(at(renderer().draw(picture), 60, 60).sum(), empty.sum());
+  picture.instances = {box({1, 0.1f, 1}, {0.3f, 1.5f, 0}, kBlack)};
+  EXPECT_LT(at(renderer().draw(picture), 60, 60).sum(), empty.sum() - 60);
+  picture.light.shadows = false;
+  EXPECT_EQ(at(renderer().draw(picture), 60, 60).sum(), empty.sum());
+}
+
+TEST(Renderer, BodiesShadeBodiesAndABodyAtRestIsNotShadedByItself) {
+  Picture picture = bare();
+  picture.camera.eye = {0, 6, 0.1f};
+  picture.light.direction = {0, -1, 0};
+  picture.instances = {box({2, 0.2f, 2}, {0, 0, 0}, {0.7f, 0.7f, 0.7f, 1})};
+  picture.light.shadows = false;
+  const Image unshaded = renderer().draw(picture);
+  picture.light.shadows = true;
+  EXPECT_EQ(unshaded, renderer().draw(picture));  // no acne
+  picture.light.direction = {1, -1, 0};
+  const Rgb before = at(renderer().draw(picture), 80, 60);
+  picture.instances.push_back(box({0.6f, 0.1f, 0.6f}, {-1, 1.1f, 0}, kRed));
+  EXPECT_LT(at(renderer().draw(picture), 80, 60).sum(), before.sum() - 60);
+}
+
+TEST(Renderer, LinesOnTopAreSeenThroughBodiesAndOthersAreNot) {
+  Picture picture = bare();
+  picture.instances = {box({1, 1, 1}, {0, 0, 0}, kRed)};
+  const int covered = at(renderer().draw(picture), 80, 60).r;
+  picture.lines = {{{-1, 0, -1}, {1, 0, -1}, {0, 0, 1, 1}, 24, false, false}};
+  EXPECT_EQ(at(renderer().draw(picture), 80, 60).r, covered);
+  picture.lines[0].onTop = true;
+  EXPECT_EQ(at(renderer().draw(picture), 80, 60).b, 255);
+}
+
+TEST(Renderer, OnlyAMarkedBallShowsItsTurning) {
+  Picture picture = bare();
+  Instance ball = box({1, 1, 1}, {0, 0, 0}, kRed);
+  ball.primitive = Primitive::kSphere;
+  const auto changed = [&](bool marked) {
+    ball.marked = marked;
+    ball.orientation = Eigen::Quaternionf::Identity();
+    picture.instances = {ball};
+    const Image before = renderer().draw(picture);
+    ball.orientation = Eigen::Quaternionf(Eigen::AngleAxisf(0.6f, Vec3f(1, 2, 0).normalized()));
+    picture.instances = {ball};
+    return compareImages(before, renderer().draw(picture), {8, 0, 32, 0, 0}).visible;
+  };
+  EXPECT_GT(changed(true), 100u);
+  EXPECT_LT(changed(false), 20u);  // the facets of its outline
+}
+
+TEST(Renderer, LooksStraightDownAndAlongADegenerateUp) {
+  Picture picture = bare();
+  picture.camera = {{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 40};
+  picture.instances = {box({1, 1, 1}, {0, 0, 0}, kRed)};
+  EXPECT_GT(at(renderer().draw(picture), 80, 60).r, 100);
+}
+
+TEST(Renderer, RefusesNumbersThatAreNotFiniteAndMissingMeshes) {
+  Picture picture = bare();
+  picture.instances = {box({1, 1, 1}, {0, std::nanf(""), 0}, kRed)};
+  EXPECT_THROW(renderer().draw(picture), std::invalid_argument);
+  picture.instances = {box({1, 1, 1}, {0, 0, 0}, kRed)};
+  picture.instances[0].primitive = Primitive::kMesh;
+  EXPECT_THROW(renderer().draw(picture), std::invalid_argument);
+  picture = bare();
+  picture.camera.target = picture.camera.eye;
+  EXPECT_THROW(renderer().draw(picture), std::invalid_argument);
+  EXPECT_THROW(Renderer({0, 10, Quality::kDraft, ""}), std::invalid_argument);
+  EXPECT_THROW(Renderer({64, 64, Quality::kDraft, "/no/such/font.ttf"}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace render
