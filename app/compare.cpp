@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <optional>
 #include <set>
 
 #include "app/commands.h"
@@ -22,8 +21,9 @@ struct CompareOptions {
   bool exact = false, quiet = false;
 };
 
-std::optional<render::Image> readImage(const fs::path& file) {
-  if (!fs::exists(file)) return std::nullopt;
+// Empty when there is no such file.
+render::Image readImage(const fs::path& file) {
+  if (!fs::exists(file)) return {};
   try {
     return render::readPng(file);
   } catch (const std::system_error&) {
@@ -50,7 +50,7 @@ std::vector<ImagePair> compareFolders(const fs::path& a, const fs::path& b) {
   std::vector<ImagePair> pairs;
   for (const fs::path& file : files) {
     ImagePair pair = comparePair(file.string(), readImage(a / file), readImage(b / file));
-    if (pair.passed) pair.want = pair.got = std::nullopt;  // only differences are shown
+    if (pair.passed) pair.want = pair.got = {};  // only differences are shown
     pairs.push_back(std::move(pair));
   }
   return pairs;
@@ -71,7 +71,7 @@ std::vector<ImagePair> comparePaths(const fs::path& a, const fs::path& b) {
 
 std::string numbers(const ImagePair& pair) {
   const render::Comparison& c = pair.comparison;
-  if (!pair.want && !pair.got) return "";
+  if (c.pixels == 0) return "";
   return fmt::format(
       "      pixels {}, visible {}, strong {}, largest {} levels, worst tile {} at {},{}\n",
       c.pixels, c.visible, c.strong, c.largest, c.worstTile, c.worstTileX, c.worstTileY);

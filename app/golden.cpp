@@ -50,8 +50,9 @@ const GoldenHashes* findHashes(const GoldenRecord& record, int frame) {
   return found == record.frames.end() ? nullptr : &found->second;
 }
 
-std::optional<render::Image> readGolden(const fs::path& file) {
-  if (!fs::exists(file)) return std::nullopt;
+// Empty when there is no such file.
+render::Image readGolden(const fs::path& file) {
+  if (!fs::exists(file)) return {};
   return render::readPng(file);
 }
 
@@ -110,8 +111,8 @@ void updateScene(const GoldenOptions& options, const std::string& name) {
   for (const GoldenFrame& now : drawGoldenFrames(scene, options.common.progressMode())) {
     after.frames[now.frame] = now.hashes;
     const fs::path file = goldenImage(folder, now.frame);
-    const std::optional<render::Image> image = readGolden(file);
-    const bool samePixels = image && *image == now.image;
+    const render::Image image = readGolden(file);
+    const bool samePixels = image == now.image;
     const std::string moved = movedLayer(findHashes(before, now.frame), now, samePixels);
     say(fmt::format("{} {:05}: {}\n", scene.name, now.frame,
                     !image          ? "new"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,17 +10,17 @@
 namespace app {
 
 struct ImagePair {
-  std::string name;                   // "pyramid 00030"
-  std::optional<render::Image> want;  // absent: there is none
-  std::optional<render::Image> got;
+  std::string name;         // "pyramid 00030"
+  render::Image want, got;  // empty: there is none
   render::Comparison comparison;
   bool passed = false;
   std::string remark;  // which layer moved
 };
 
+bool exists(const render::Image& image);
+
 // Compares; a missing side never passes.
-ImagePair comparePair(std::string name, std::optional<render::Image> want,
-                      std::optional<render::Image> got);
+ImagePair comparePair(std::string name, render::Image want, render::Image got);
 
 // One line: "FAIL  pyramid 00030  412 pixels ...".
 std::string describePair(const ImagePair& pair);
