@@ -6,9 +6,8 @@
 namespace physics::collision {
 namespace {
 
-constexpr std::size_t kMaxEdgePairs = 10000;  // beyond, the distance algorithm finds the direction
-constexpr double kParallel = 1e-8;            // sine squared
-constexpr double kSquare = 1e-6;              // cosine
+constexpr double kParallel = 1e-8;  // sine squared
+constexpr double kSquare = 1e-6;    // cosine
 
 // Best facet of `flat`; `pose` takes the other into its frame.
 Axis bestFacet(const Solid& flat, const Solid& other, const Relative& pose, double enough) {
@@ -54,7 +53,7 @@ PlacedEdge placed(const Solid& s, const Edge& edge, const Relative& pose) {
 
 Axis bestEdges(const Solid& a, const Solid& b, const Relative& pose) {
   Axis best;
-  if (a.edges.size() * b.edges.size() > kMaxEdgePairs) return best;
+  if (tooManyEdges(a, b)) return best;
   for (std::size_t i = 0; i < a.edges.size(); ++i) {
     const PlacedEdge ea = placed(a, a.edges[i], pose);
     for (std::size_t j = 0; j < b.edges.size(); ++j) {
@@ -112,6 +111,8 @@ Axis bestSides(const Solid& a, const Solid& b, const Relative& pose) {
 
 }  // namespace
 
+bool tooManyEdges(const Solid& a, const Solid& b) { return a.edges.size() * b.edges.size() > 4000; }
+
 double separationAlong(const Solid& a, const Solid& b, const Relative& pose, const Vec3& n) {
   const Vec3 onA = pose.R * support(a, -(pose.R.transpose() * n)) + pose.t;
   return n.dot(onA - support(b, n));
@@ -124,7 +125,7 @@ const Axis& Axes::largest() const {
 
 const Axis& Axes::preferred(double tolerance) const {
   const auto clearly = [&](const Axis& better, const Axis& than) {
-    return better.separation > than.separation + tolerance - 0.05 * std::min(0.0, than.separation);
+    return better.separation > than.separation + tolerance;
   };
   const Axis& facet = clearly(facetA, facetB) ? facetA : facetB;
   return clearly(lines, facet) ? lines : facet;

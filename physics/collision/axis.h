@@ -19,6 +19,9 @@ struct Axis {
 // min over a of n . p  -  max over b of n . p.
 double separationAlong(const Solid& a, const Solid& b, const Relative& pose, const Vec3& n);
 
+// Two polyhedra with so many edges that pairs of them are not tried.
+bool tooManyEdges(const Solid& a, const Solid& b);
+
 // The best of each sort. For two polyhedra their largest separation is the signed distance whenever
 // they overlap. Stops early with only one found when that separation exceeds `enough`.
 struct Axes {

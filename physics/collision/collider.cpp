@@ -65,7 +65,7 @@ struct Collider::Impl {
     watch.known = true;
     watch.pose = pose;
     watch.reach = reach + kSpare * step.margin;
-    const double near = plane ? watch.reach : (1 + kSpare) * step.margin;
+    const double near = plane ? reach : step.margin;
     watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, watch.manifold);
     ++narrowPhaseCalls;
     if (plane || watch.distance <= near || watch.distance > reach) return;

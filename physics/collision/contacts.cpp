@@ -74,6 +74,8 @@ Choice choose(const Contacts& c, double keep, double tie) {
 
 }  // namespace
 
+double offset(const Vec3& n, const Vec3& apart) { return (apart - n.dot(apart) * n).norm(); }
+
 double Contacts::smallestGap() const {
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < count; ++i) smallest = std::min(smallest, points[i].gap);
@@ -133,22 +135,22 @@ void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flat
                 Contacts& contacts) {
   contacts.count = 0;
   const Vec3 along = b.to - b.from, other = a.to - a.from;
-  const double length = along.norm(), otherLength = other.norm();
-  if (length > 0 && otherLength > 0) {
-    const Vec3 u = along / length;
-    const double first = u.dot(a.from - b.from), last = u.dot(a.to - b.from);
-    const double low = std::clamp(std::min(first, last), 0.0, length);
-    const double high = std::clamp(std::max(first, last), 0.0, length);
-    const double sine = u.cross(other).norm() / otherLength;
-    const double rise = last - first;
-    if (high - low > 4 * flatness && 0.5 * (high - low) * sine <= flatness) {
-      for (const double s : {low, high}) {
-        contacts.add(a.from + (s - first) / rise * other, b.from + s * u,
-                     feature + (s == low ? 0u : 1u));
+  const double square = along.squaredNorm();
+  const double first = along.dot(a.from - b.from), rise = along.dot(other);
+  if (square > 0 && rise != 0) {  // the stretch of b beside a, in parts of b
+    const double low = std::clamp(std::min(first, first + rise) / square, 0.0, 1.0);
+    const double high = std::clamp(std::max(first, first + rise) / square, 0.0, 1.0);
+    if ((high - low) * std::sqrt(square) > 4 * flatness) {
+      for (const double part : {low, high}) {
+        const Vec3 onA = a.from + (part * square - first) / rise * other,
+                   onB = b.from + part * along;
+        if (offset(contacts.n, onA - onB) > flatness) continue;
+        contacts.add(onA, onB, feature + (part == low ? 0u : 1u));
       }
-      return;
     }
   }
+  if (contacts.count == 2) return;
+  contacts.count = 0;
   const LinePoints closest = closestPoints(a, b);
   contacts.add(closest.onA, closest.onB, feature);
 }

@@ -39,13 +39,16 @@ LinePoints closestPoints(const Line& a, const Line& b);
 
 enum class Owner { a, b };  // whose face is flat: its normal is the contact's
 
+// How far two points lie beside each other, seen along n.
+double offset(const Vec3& n, const Vec3& apart);
+
 // Clips what the other solid turns towards facet `index` of the owner by the side planes of the
 // facet.
 void touchFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owner, int index,
                 Contacts& contacts);
 
-// Two segments that are nearly parallel touch in two points, others in one. n and the radii are
-// set.
+// Two segments that are nearly parallel touch in two points, no more than `flatness` beside each
+// other; others in the closest two. n and the radii are set.
 void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flatness,
                 Contacts& contacts);
 

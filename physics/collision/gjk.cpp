@@ -69,27 +69,27 @@ Simplex closestOnTriangle(const Simplex& s, int i, int j, int k) {
                 closestOnSegment(s, k, i));
 }
 
-// All four vertices are kept when the origin is inside.
-Simplex closestOnTetrahedron(const Simplex& s) {
+// All four vertices are kept when the origin is inside, unless it is known to be `outside`: the
+// sides of a sliver can not be told by their signs.
+Simplex closestOnTetrahedron(const Simplex& s, bool outside) {
   constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 3, 2, 0}};
   Simplex best;
   for (const auto& [i, j, k, opposite] : kFaces) {
     const Vec3& a = s.vertex[i].w;
     const Vec3 n = (s.vertex[j].w - a).cross(s.vertex[k].w - a);
     const double origin = -n.dot(a), inside = n.dot(s.vertex[opposite].w - a);
-    const bool flat = std::abs(inside) <= 1e-14 * n.norm() * (s.vertex[opposite].w - a).norm();
-    if (!flat && origin * inside > 0) continue;
+    if (!outside && origin * inside > 0) continue;
     const Simplex face = closestOnTriangle(s, i, j, k);
     best = best.count == 0 ? face : closer(best, face);
   }
   return best.count == 0 ? s : best;
 }
 
-Simplex reduced(const Simplex& s) {
+Simplex reduced(const Simplex& s, bool outside) {
   if (s.count == 1) return subset(s, {0}, {1.0});
   if (s.count == 2) return closestOnSegment(s, 0, 1);
   if (s.count == 3) return closestOnTriangle(s, 0, 1, 2);
-  return closestOnTetrahedron(s);
+  return closestOnTetrahedron(s, outside);
 }
 
 Vertex vertexAlong(const Solid& a, const Solid& b, const Relative& pose, const Vec3& d) {
@@ -118,16 +118,18 @@ Distance coreDistance(const Solid& a, const Solid& b, const Relative& pose) {
   simplex.weight[0] = 1;
   Vec3 v = simplex.vertex[0].w;
   Distance result;
+  double bound = 0;  // the distance is not less: a plane with this gap was seen
   for (int i = 0; i < kMaxIterations; ++i) {
-    const double square = v.squaredNorm();
-    result.overlap = simplex.count == 4 || std::sqrt(square) <= 1e-9 * scale;
+    const double square = v.squaredNorm(), length = std::sqrt(square);
+    result.overlap = simplex.count == 4 || length <= 1e-9 * scale;
     if (result.overlap) return result;
     const Vertex next = vertexAlong(a, b, pose, -v);
-    if (square - v.dot(next.w) <= kRelative * square + 1e-16 * scale * std::sqrt(square)) break;
+    bound = std::max(bound, v.dot(next.w) / length);
+    if (length - bound <= kRelative * length + 1e-16 * scale) break;
     if (contains(simplex, next.w)) break;
     Simplex larger = simplex;
     larger.vertex[larger.count++] = next;
-    larger = reduced(larger);
+    larger = reduced(larger, bound > 1e-12 * scale);
     const Vec3 closer = larger.closest();
     if (larger.count < 4 && !(closer.squaredNorm() < square)) break;
     simplex = larger;

@@ -40,6 +40,8 @@ void touchAlong(const Solid& a, const Solid& b, const Relative& pose, const Axis
     const auto edges = static_cast<std::uint32_t>(axis.indexA * 4096 + axis.indexB) * 2;
     touchLines(placed(lineOf(a, axis.indexA), pose), lineOf(b, axis.indexB), kLinesTag | edges,
                flatness(a, b), contacts);
+    const Vec3 apart = contacts.points[0].onA - contacts.points[0].onB;  // beyond an end of a line
+    if (offset(axis.n, apart) > flatness(a, b)) contacts.count = 0;
   }
 }
 
@@ -60,40 +62,61 @@ void touchDeepest(const Solid& a, const Solid& b, const Relative& pose, const Ax
   touchPoints(a, b, axis.n, onA, onA - axis.separation * axis.n, contacts);
 }
 
+// A better start than `axis` among a grid of directions and the way from centre to centre.
+void startSearch(const Solid& a, const Solid& b, const Relative& pose, Axis& axis) {
+  const auto offer = [&](const Vec3& d) {
+    const Vec3 n = d.normalized();
+    const double separation = separationAlong(a, b, pose, n);
+    if (separation > axis.separation) axis = {Axis::From::points, n, separation, -1, -1};
+  };
+  if (pose.t.squaredNorm() > 0) offer(pose.t);
+  for (int i = 0; i < 27; ++i) {
+    if (i != 13) offer(Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+  }
+}
+
 // Overlapping cores with a curved side or too many edges: pushed apart along the best direction
 // known, their distance gives a better one, until it does not. True when it found one better by
 // `tolerance`.
 bool refine(const Solid& a, const Solid& b, const Relative& pose, double tolerance, Axis& axis,
             Contacts& contacts) {
-  bool better = false;
-  for (int i = 0; i < 8; ++i) {
-    const double away = 1e-2 * smallerSize(a, b) - axis.separation;
+  Axis best = axis;
+  startSearch(a, b, pose, best);
+  for (int i = 0; i < 20; ++i) {
+    const double away = 1e-2 * smallerSize(a, b) - best.separation;
     Relative apart = pose;
-    apart.t += away * axis.n;
+    apart.t += away * best.n;
     const Distance d = coreDistance(a, b, apart);
     if (d.overlap) break;
-    const Vec3 n = (d.onA - d.onB) / d.distance;
-    const double separation = d.distance - away * axis.n.dot(n);
-    if (separation <= axis.separation + tolerance) break;
-    const Vec3 middle = 0.5 * (d.onA - away * axis.n + d.onB);
+    const Vec3 n = (d.onA - d.onB).normalized();
+    const double separation = d.distance - away * best.n.dot(n);
+    const Vec3 middle = 0.5 * (d.onA - away * best.n + d.onB);
+    const double gain = separation - best.separation;
+    if (i > 0 && gain < -1e-12 * smallerSize(a, b)) break;
     touchPoints(a, b, n, middle + 0.5 * separation * n, middle - 0.5 * separation * n, contacts);
-    axis = {Axis::From::points, n, separation, -1, -1};
-    better = true;
+    best = {Axis::From::points, n, separation, -1, -1};
+    if (gain <= 1e-12 * smallerSize(a, b)) break;
   }
-  return better;
+  if (best.separation <= axis.separation + tolerance) return false;
+  axis = best;
+  return true;
 }
 
 bool isExact(const Solid& a, const Solid& b) {  // facets and edges are all there is
   const bool curved = a.kind == Kind::cylinder || b.kind == Kind::cylinder;
-  return !curved && a.edges.size() * b.edges.size() <= 10000;
+  return !curved && !tooManyEdges(a, b);
 }
 
 // Cores that overlap, or touch to rounding, and no facet or line holds the deepest point.
 double touchOverlapping(const Solid& a, const Solid& b, const Relative& pose, Axis axis,
                         Contacts& contacts) {
   const double tolerance = kFlat * smallerSize(a, b);
-  const bool tried = !isExact(a, b) && refine(a, b, pose, tolerance, axis, contacts);
-  if (!tried && contacts.count == 0) touchDeepest(a, b, pose, axis, contacts);
+  Contacts refined;
+  if (!isExact(a, b) && refine(a, b, pose, tolerance, axis, refined)) {
+    contacts = refined;
+  } else if (contacts.count == 0) {
+    touchDeepest(a, b, pose, axis, contacts);
+  }
   return axis.separation - a.rounding - b.rounding;
 }
 
@@ -120,7 +143,7 @@ double touchCores(const Solid& a, const Solid& b, const Relative& pose, double r
   }
   const Distance nearest = coreDistance(a, b, pose);
   if (nearest.overlap) return touchOverlapping(a, b, pose, largest, contacts);
-  const Vec3 n = (nearest.onA - nearest.onB) / nearest.distance;
+  const Vec3 n = (nearest.onA - nearest.onB).normalized();
   touchPoints(a, b, n, nearest.onA, nearest.onB, contacts);
   return nearest.distance - radii;
 }

@@ -116,7 +116,7 @@ void addLowCorners(const Solid& a, const Relative& pose, const Solid& plane, Con
 
 double flatness(const Solid& a, const Solid& b) {
   const double round = (a.isLine() ? a.radius : 0) + (b.isLine() ? b.radius : 0);
-  return 0.1 * round + 1e-3 * std::min(a.size, b.size);
+  return 0.02 * round + 1e-3 * std::min(a.size, b.size);
 }
 
 double touchRound(const Solid& a, const Solid& b, const Relative& pose, Contacts& contacts) {
@@ -130,7 +130,7 @@ double touchRound(const Solid& a, const Solid& b, const Relative& pose, Contacts
   contacts.n = clear ? Vec3(d / distance) : anyDirection(lineA, lineB, pose.t);
   contacts.radiusA = a.rounding;
   contacts.radiusB = b.rounding;
-  touchLines(lineA, lineB, kLinesTag, 0.1 * (a.rounding + b.rounding), contacts);
+  touchLines(lineA, lineB, kLinesTag, flatness(a, b), contacts);
   return distance - a.rounding - b.rounding;
 }
 
