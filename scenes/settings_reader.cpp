@@ -13,7 +13,7 @@ namespace {
 using physics::Field;
 using physics::Unit;
 
-constexpr const char* kMethods[] = {"nonlinear_gauss_seidel"};
+constexpr const char* kMethods[] = {"nonlinear_gauss_seidel", "direct"};
 constexpr const char* kSteppings[] = {"paper"};
 
 void readSimulation(TableReader& reader, Scene& scene) {
@@ -24,6 +24,7 @@ void readSimulation(TableReader& reader, Scene& scene) {
   reader(Field{"relaxation", Unit::kNone, false, 0.01, 1.99}, settings.relaxation);
   reader(Field{"regularisation", Unit::kNone, false, 0, 1e6}, settings.regularisation);
   reader(Field{"warm_start"}, settings.warmStart);
+  reader(Field{"warm_start_joints"}, settings.warmStartJoints);
   reader(Field{"seed"}, scene.seed);
   if (const Value* method = reader.take("method")) {
     const int choice = readChoice(*method, reader.spot({"method"}), kMethods);

@@ -160,7 +160,8 @@ void applyOverride(Value& root, const std::string& keyAndValue) {
       throw InputError(
           fmt::format("{}: {}: expected a table, got {}", setting, where, describe(*target)));
     }
-    where += (where.empty() ? "" : ".") + part;
+    if (!where.empty()) where += '.';
+    where += part;
   }
   *target = parseSettingValue(text, setting);
 }
