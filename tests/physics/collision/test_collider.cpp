@@ -1,0 +1,166 @@
+// The collider as a whole: what it keeps, its order, who is left out.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/physics/collision/scene_of_two.h"
+
+namespace physics {
+namespace {
+
+using namespace testing;
+
+struct Pile {
+  Collider collider;
+  std::vector<Pose> poses = {Pose{}};
+
+  void add(const Shape& shape, const Vec3& x, bool movable = true) {
+    collider.add(static_cast<BodyId>(poses.size()), shape, movable);
+    poses.push_back({x, Quat::Identity()});
+  }
+  std::vector<Manifold> find(double margin = 0.02) {
+    const auto found = collider.find(poses, poses, margin);
+    return {found.begin(), found.end()};
+  }
+};
+
+Pile pyramid(int base) {
+  Pile pile;
+  pile.add(Plane{}, Vec3::Zero(), false);
+  for (int row = 0; row < base; ++row) {
+    for (int i = 0; i < base - row; ++i) pile.add(Box{}, Vec3(1.1 * (i + .5 * row), row + .5, 0));
+  }
+  return pile;
+}
+
+bool equal(const Manifold& p, const Manifold& q) {
+  bool same = p.a == q.a && p.b == q.b && p.count == q.count && p.normal == q.normal;
+  for (int i = 0; same && i < p.count; ++i) {
+    same = p.points[i].coreA == q.points[i].coreA && p.points[i].coreB == q.points[i].coreB &&
+           p.points[i].feature == q.points[i].feature;
+  }
+  return same;
+}
+
+TEST(Collider, FindsEveryContactOfAPyramidInOrder) {
+  Pile pile = pyramid(6);
+  const auto found = pile.find();
+  EXPECT_EQ(found.size(), 6u + 2 * 15u);
+  for (const Manifold& m : found) EXPECT_EQ(m.count, m.b == 1 ? 4 : 4);
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    EXPECT_LT(std::pair(found[i - 1].a, found[i - 1].b), std::pair(found[i].a, found[i].b));
+  }
+}
+
+TEST(Collider, KeepsTheManifoldsOfBodiesAtRestWithoutLookingAgain) {
+  Pile pile = pyramid(6);
+  const auto before = pile.find();
+  const auto calls = pile.collider.counts();
+  for (Pose& pose : pile.poses) pose.x += Vec3::Constant(1e-6);
+  pile.poses[0].x = pile.poses[1].x = Vec3::Zero();
+  const auto after = pile.find();
+  EXPECT_EQ(pile.collider.counts().narrowPhaseCalls, calls.narrowPhaseCalls);
+  EXPECT_EQ(pile.collider.counts().broadPhaseCalls, calls.broadPhaseCalls);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < after.size(); ++i) EXPECT_TRUE(equal(after[i], before[i]));
+}
+
+TEST(Collider, LooksAgainAtABodyThatMoved) {
+  Pile pile = pyramid(6);
+  pile.find();
+  const auto calls = pile.collider.counts().narrowPhaseCalls;
+  pile.poses.back().x.x() += .01;
+  const auto after = pile.find();
+  EXPECT_GT(pile.collider.counts().narrowPhaseCalls, calls);
+  EXPECT_LE(pile.collider.counts().narrowPhaseCalls, calls + 4);
+  Pile fresh = pyramid(6);
+  fresh.poses = pile.poses;
+  const auto expected = fresh.find();
+  ASSERT_EQ(after.size(), expected.size());
+  for (std::size_t i = 0; i < after.size(); ++i) EXPECT_TRUE(equal(after[i], expected[i]));
+}
+
+TEST(Collider, FollowsBodiesThatMeetAndPart) {
+  Pile pile;
+  pile.add(Sphere{.5}, Vec3::Zero(), false);
+  pile.add(Sphere{.5}, Vec3(3, 0, 0));
+  for (const auto& [x, expected] : {std::pair(3.0, 0u), {1.0, 1u}, {2.0, 0u}, {-1.0, 1u}, {-5.0, 0u}, {.5, 1u}}) {
+    pile.poses[2].x.x() = x;
+    EXPECT_EQ(pile.find().size(), expected) << x;
+  }
+}
+
+TEST(Collider, IsNotChangedByBodiesElsewhere) {
+  Pile alone = pyramid(5), crowded = pyramid(5);
+  Random random(4);
+  for (int i = 0; i < 50; ++i) crowded.add(Sphere{.2}, Vec3(0, 5, 50) + 5 * random.direction());
+  for (int step = 0; step < 5; ++step) {
+    for (std::size_t i = 2; i < alone.poses.size(); ++i) {
+      alone.poses[i].x += 1e-3 * random.direction();
+      crowded.poses[i] = alone.poses[i];
+    }
+    const auto expected = alone.find(), all = crowded.find();
+    std::vector<Manifold> ours;
+    for (const Manifold& m : all) {
+      if (m.a < static_cast<BodyId>(alone.poses.size())) ours.push_back(m);
+    }
+    ASSERT_EQ(ours.size(), expected.size());
+    for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_TRUE(equal(ours[i], expected[i]));
+  }
+}
+
+TEST(Collider, LeavesIgnoredPairsOutAlsoLater) {
+  Pile pile;
+  for (int i = 0; i < 3; ++i) pile.add(Box{}, Vec3(0, i, 0));
+  pile.collider.ignore(2, 1);
+  EXPECT_EQ(pile.find().size(), 1u);
+  pile.collider.ignore(2, 3);
+  EXPECT_EQ(pile.find().size(), 0u);
+}
+
+TEST(Collider, LeavesOutPairsThatCanNotMoveAndPairsOfPoints) {
+  Pile pile;
+  pile.add(Box{}, Vec3::Zero(), false);
+  pile.add(Box{}, Vec3(0, .5, 0), false);
+  pile.add(PointShape{}, Vec3(5, 0, 0));
+  pile.add(PointShape{}, Vec3(5, 0, 0));
+  EXPECT_TRUE(pile.find().empty());
+  EXPECT_EQ(pile.collider.counts().pairs, 0);
+}
+
+TEST(Collider, MovingAPlaneIsSeen) {
+  Pile pile;
+  pile.add(Plane{}, Vec3(0, -5, 0), false);
+  pile.add(Sphere{.5}, Vec3::Zero());
+  EXPECT_TRUE(pile.find().empty());
+  pile.poses[1].x.y() = -.5;
+  EXPECT_EQ(pile.find().size(), 1u);
+}
+
+TEST(Collider, TellsWhenBodiesLeaveTheBoundsItLookedIn) {
+  Pile pile = pyramid(3);
+  pile.find();
+  EXPECT_FALSE(pile.collider.outdated(pile.poses, pile.poses));
+  std::vector<Pose> end = pile.poses;
+  end[4].x.x() += 1;
+  EXPECT_TRUE(pile.collider.outdated(pile.poses, end));
+}
+
+TEST(Collider, DistanceOfABodyWithoutShapeIsInfinite) {
+  Pile pile;
+  pile.add(Sphere{.5}, Vec3::Zero());
+  EXPECT_EQ(pile.collider.distance(0, Pose{}, 1, Pose{}), std::numeric_limits<double>::infinity());
+}
+
+TEST(Collider, RefusesWhatItCanNotTake) {
+  Pile pile;
+  pile.add(Sphere{.5}, Vec3::Zero());
+  EXPECT_THROW(pile.collider.add(1, Sphere{.5}, true), std::invalid_argument);
+  EXPECT_THROW(pile.collider.add(2, Sphere{0}, true), std::invalid_argument);
+  EXPECT_THROW(pile.collider.add(2, Plane{}, true), std::invalid_argument);
+  EXPECT_THROW(pile.find(-1), std::invalid_argument);
+  EXPECT_THROW(pile.collider.find({}, {}, 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace physics
