@@ -17,26 +17,31 @@ int edgeTowards(const Solid& box, int axis, const Vec3& d) {
   return index;
 }
 
-Axis bestEdges(const Solid& a, const Solid& b, const Relative& pose) {
+// L = (axis j of a) x (axis i of b), of length sqrt(1 - R_ij^2). In terms of R alone,
+//   t . L = t_i1 R_i2,j - t_i2 R_i1,j,  and the boxes reach |L| far by sums of four entries of |R|.
+Axis bestEdges(const Solid& a, const Solid& b, const Relative& pose, const Mat3& size) {
   Axis best;
-  int bestA = 0, bestB = 0;
+  int bestA = -1, bestB = 0;
   for (int j = 0; j < 3; ++j) {
+    const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
     for (int i = 0; i < 3; ++i) {
-      Vec3 n = pose.R.col(j).cross(Vec3::Unit(i));
-      const double square = n.squaredNorm();
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+      const double square = 1 - size(i, j) * size(i, j);
       if (square < kParallel) continue;
-      n /= std::sqrt(square);
-      const double separation = std::abs(n.dot(pose.t)) - b.half.dot(n.cwiseAbs()) -
-                                a.half.dot((pose.R.transpose() * n).cwiseAbs());
+      const double along = pose.t[i1] * pose.R(i2, j) - pose.t[i2] * pose.R(i1, j);
+      const double reachB = b.half[i1] * size(i2, j) + b.half[i2] * size(i1, j);
+      const double reachA = a.half[j1] * size(i, j2) + a.half[j2] * size(i, j1);
+      const double separation = (std::abs(along) - reachB - reachA) / std::sqrt(square);
       if (separation <= best.separation) continue;
       best.separation = separation;
-      best.n = n.dot(pose.t) < 0 ? Vec3(-n) : n;
       bestA = j;
       bestB = i;
     }
   }
-  if (best.separation == Axis().separation) return best;
+  if (bestA < 0) return best;
   best.from = Axis::From::lines;
+  best.n = pose.R.col(bestA).cross(Vec3::Unit(bestB)).normalized();
+  if (best.n.dot(pose.t) < 0) best.n = -best.n;
   best.indexA = edgeTowards(a, bestA, -(pose.R.transpose() * best.n));
   best.indexB = edgeTowards(b, bestB, best.n);
   return best;
@@ -59,7 +64,7 @@ Axes findBoxAxes(const Solid& a, const Solid& b, const Relative& pose, double en
   axes.facetA.indexA = 2 * i + (seen[i] > 0 ? 0 : 1);
   axes.facetA.n = seen[i] > 0 ? Vec3(pose.R.col(i)) : Vec3(-pose.R.col(i));
   if (axes.facetA.separation > enough) return axes;
-  axes.lines = bestEdges(a, b, pose);
+  axes.lines = bestEdges(a, b, pose, size);
   return axes;
 }
 

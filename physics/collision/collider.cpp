@@ -33,59 +33,85 @@ double approach(const Item& a, const Item& b) {
 
 struct Collider::Impl {
   Pairs pairs;
-  std::vector<Manifold> manifolds;
+  std::vector<Manifold> manifolds;  // the result; it keeps what has not changed
+  std::vector<int> sources;         // the watch that each was copied from
   std::int64_t narrowPhaseCalls = 0;
 
-  // The part of the step that a pair is looked at, and with what.
   struct Step {
     std::span<const Pose> start, end;
     double margin = 0;
   };
 
-  // Whether what was found before still holds at `pose` for surfaces up to `reach` apart.
-  static bool holds(const Watch& watch, const Item& a, const Item& b, const Relative& pose,
+  // Whether what was found before still holds for surfaces up to `reach` apart.
+  static bool holds(const Watch& watch, const Finding& found, const Item& a, const Item& b,
                     double reach) {
-    if (!watch.known) return false;
-    const double shift = (pose.t - watch.pose.t).norm();
-    const double turn = (pose.R - watch.pose.R).norm() * std::sqrt(0.5);
-    if (watch.manifold.count == 0 && watch.distance - shift - turn * a.solid.coreRadius > reach) {
-      return true;
-    }
-    return shift <= kStill * smallerSize(a.solid, b.solid) && turn <= kStill &&
-           reach <= watch.reach;
+    const double travel = a.travel + b.travel - watch.travel;
+    const double still = kStill * smallerSize(a.solid, b.solid);
+    if (watch.count == 0 && watch.distance - travel > reach) return true;
+    if (reach <= watch.reach && travel <= still) return true;
+    const Relative pose = relativePose(a, b);
+    const double shift = (pose.t - found.pose.t).norm();
+    const double turn = (pose.R - found.pose.R).norm() * std::sqrt(0.5);
+    const double nearer = shift + turn * a.solid.coreRadius;
+    if (watch.count == 0 && watch.distance - nearer > reach) return true;
+    return reach <= watch.reach && shift <= still && turn <= kStill;
   }
 
-  void look(Watch& watch, const Step& step) {
-    const Item &a = pairs.items()[watch.a], &b = pairs.items()[watch.b];
+  static Relative relativePose(const Item& a, const Item& b) {
     const Mat3 toB = b.R.transpose();
-    const Relative pose{toB * a.R, toB * (a.x - b.x)};
-    const double closing = approach(a, b), reach = step.margin + closing;
-    if (holds(watch, a, b, pose, reach)) return;
+    return {toB * a.R, toB * (a.x - b.x)};
+  }
+
+  // True when the pair was looked at anew.
+  bool look(Watch& watch, Finding& found, const Step& step) {
+    const Item &a = pairs.items()[watch.a], &b = pairs.items()[watch.b];
+    const double reach = step.margin + approach(a, b);
+    if (watch.known && holds(watch, found, a, b, reach)) return false;
     const bool plane = b.solid.kind == Kind::plane;
     watch.known = true;
-    watch.pose = pose;
+    watch.travel = a.travel + b.travel;
     watch.reach = reach + kSpare * step.margin;
+    found.pose = relativePose(a, b);
     const double near = plane ? reach : step.margin;
-    watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, watch.manifold);
+    watch.distance = touch(a.solid, b.solid, found.pose, near, watch.reach, found.manifold);
     ++narrowPhaseCalls;
-    if (plane || watch.distance <= near || watch.distance > reach) return;
-    lookAlong(watch, a, b, step);
-    watch.known = watch.manifold.count == 0;
+    const bool onTheWay = !plane && watch.distance > near && watch.distance <= reach;
+    if (onTheWay) lookAlong(found.manifold, a, b, step);
+    watch.count = found.manifold.count;
+    watch.known = !onTheWay || watch.count == 0;
+    return true;
   }
 
   // Not near at the start but fast enough to be within the step: the manifold of the first touch,
   // or, when there is none, that of the end.
-  void lookAlong(Watch& watch, const Item& a, const Item& b, const Step& step) {
+  void lookAlong(Manifold& manifold, const Item& a, const Item& b, const Step& step) {
     const Way wayA{step.start[a.body], step.end[a.body]};
     const Way wayB{step.start[b.body], step.end[b.body]};
     const double close = std::max(0.1 * step.margin, 1e-4 * smallerSize(a.solid, b.solid));
     const double part =
         firstTouch(a.solid, wayA, b.solid, wayB, close, narrowPhaseCalls).value_or(1.0);
-    const Relative pose = relativePose(along(wayA, part), along(wayB, part));
+    const Relative pose = collision::relativePose(along(wayA, part), along(wayB, part));
     const double near = std::max(close, step.margin);
     const double keep = near + (1 - part) * approach(a, b);
-    touch(a.solid, b.solid, pose, near, keep, watch.manifold);
+    touch(a.solid, b.solid, pose, near, keep, manifold);
     ++narrowPhaseCalls;
+  }
+
+  void lookAtAll(const Step& step) {
+    std::size_t count = 0;
+    for (const Pairs::Key& key : pairs.keys()) {
+      Watch& watch = pairs.watch(key);
+      const bool anew = look(watch, pairs.finding(key), step);
+      if (watch.count == 0) continue;
+      if (count == sources.size()) {
+        sources.push_back(-1);
+        manifolds.emplace_back();
+      }
+      if (anew || sources[count] != key.watch) manifolds[count] = pairs.finding(key).manifold;
+      sources[count++] = key.watch;
+    }
+    sources.resize(count);
+    manifolds.resize(count);
   }
 };
 
@@ -104,12 +130,7 @@ std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<
                                          double margin) {
   require(margin >= 0, "collider: margin must not be negative");
   impl_->pairs.update(start, end, margin);
-  impl_->manifolds.clear();
-  for (const Pairs::Key& key : impl_->pairs.keys()) {
-    Watch& watch = impl_->pairs.watch(key);
-    impl_->look(watch, {start, end, margin});
-    if (watch.manifold.count > 0) impl_->manifolds.push_back(watch.manifold);
-  }
+  impl_->lookAtAll({start, end, margin});
   return impl_->manifolds;
 }
 

@@ -8,8 +8,9 @@
 namespace physics::collision {
 namespace {
 
-constexpr double kSlack = 0.04;  // of the size: how much bounds are fatter than they must be
-constexpr double kAhead = 2;     // steps of the present motion that the bounds hold
+constexpr double kSlack = 0.04;      // of the size: how much bounds are fatter than they must be
+constexpr double kAhead = 1;         // steps of the present motion that the bounds hold
+constexpr double kPlaneReach = 1e4;  // m: where bodies lie on a plane that turns
 
 Bounds grown(const Bounds& bounds, double by) {
   return {bounds.low - Vec3::Constant(by), bounds.high + Vec3::Constant(by)};
@@ -30,7 +31,7 @@ Bounds swept(const Solid& solid, const Pose& start, const Pose& end) {
                 boundsAt(solid, end.x, end.q.toRotationMatrix()));
 }
 
-// Room for one more step or two like this one, and for a little more in all directions.
+// Room for one more step like this one, and for a little more in all directions.
 Bounds fattened(const Solid& solid, const Bounds& swept, const Vec3& move, double margin) {
   const Bounds ahead{swept.low + kAhead * move, swept.high + kAhead * move};
   return grown(joined(swept, ahead), margin + kSlack * solid.size);
@@ -101,6 +102,7 @@ int Pairs::takeWatch(int p, int q) {
   if (free_.empty()) {
     free_.push_back(static_cast<int>(watches_.size()));
     watches_.emplace_back();
+    findings_.emplace_back();
   }
   const int index = free_.back();
   free_.pop_back();
@@ -108,8 +110,8 @@ int Pairs::takeWatch(int p, int q) {
   watch.a = p;
   watch.b = q;
   watch.known = false;
-  watch.manifold.a = items_[p].body;
-  watch.manifold.b = items_[q].body;
+  findings_[index].manifold.a = items_[p].body;
+  findings_[index].manifold.b = items_[q].body;
   return index;
 }
 
@@ -157,6 +159,8 @@ bool Pairs::takeMotion(Item& item, const Pose& from, const Pose& to) {
   const Mat3 R = from.q.toRotationMatrix();
   const bool plane = item.solid.kind == Kind::plane;
   const bool planeMoved = plane && (R != item.R || from.x != item.x);
+  const double reach = plane ? kPlaneReach : item.solid.size;
+  item.travel += (from.x - item.x).norm() + reach * std::sqrt(0.5) * (R - item.R).norm();
   item.R = R;
   item.x = from.x;
   item.move = to.x - from.x;

@@ -18,16 +18,21 @@ struct Item {
   Solid solid;
   Mat3 R = Mat3::Identity();  // at the start
   Vec3 x = Vec3::Zero(), move = Vec3::Zero();
-  double turn = 0;  // the furthest that turning moves a point of the core [m]
+  double turn = 0;    // the furthest that turning moves a point of the core [m]
+  double travel = 0;  // length of the way of its points so far, at most [m]
 };
 
 // Two items, and what is known of them since their last narrow phase.
 struct Watch {
   int a = 0, b = 0;
   bool known = false;
-  Relative pose;        // then
+  int count = 0;        // of the points found then
+  double travel = 0;    // of both items together, then
   double distance = 0;  // then, or a lower bound
   double reach = 0;     // how far was looked
+};
+struct Finding {
+  Relative pose;
   Manifold manifold;
 };
 
@@ -51,6 +56,7 @@ class Pairs {
   };
   const std::vector<Key>& keys() const { return keys_; }  // sorted by (a, b)
   Watch& watch(const Key& key) { return watches_[key.watch]; }
+  Finding& finding(const Key& key) { return findings_[key.watch]; }
   std::int64_t broadPhaseCalls() const { return broadPhaseCalls_; }
 
  private:
@@ -76,6 +82,7 @@ class Pairs {
 
   std::vector<Key> keys_, fresh_, merged_;
   std::vector<Watch> watches_;
+  std::vector<Finding> findings_;  // beside the watches: seldom read while at rest
   std::vector<int> free_;
   std::vector<char> moved_;  // by item
   std::vector<int> movedTree_;

@@ -144,7 +144,7 @@ void facetPatch(const Solid& s, int index, Patch& patch) {
   patch.count = 0;
   patch.radius = 0;
   for (int k = 0; k < kept; ++k) {
-    const int id = ids[static_cast<std::int64_t>(k) * corners / kept];
+    const int id = ids[kept == corners ? k : static_cast<std::int64_t>(k) * corners / kept];
     patch.add(s.hull->vertices[id], static_cast<std::uint32_t>(id & 0xffff));
   }
 }

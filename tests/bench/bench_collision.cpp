@@ -92,9 +92,9 @@ void fallingHeap(benchmark::State& state) {
   std::size_t manifolds = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    scene.poses = next;
     for (std::size_t i = 2; i < next.size(); ++i) {
-      next[i].x += next[i].x.y() > 2 ? step : Vec3(0, 8, 0);
+      scene.poses[i].x = next[i].x + Vec3(0, next[i].x.y() > 2 ? 0 : 10, 0);
+      next[i].x = scene.poses[i].x + step;
     }
     state.ResumeTiming();
     manifolds = scene.collider.find(scene.poses, next, kMargin).size();

@@ -84,7 +84,8 @@ TEST(Collider, FollowsBodiesThatMeetAndPart) {
   Pile pile;
   pile.add(Sphere{.5}, Vec3::Zero(), false);
   pile.add(Sphere{.5}, Vec3(3, 0, 0));
-  for (const auto& [x, expected] : {std::pair(3.0, 0u), {1.0, 1u}, {2.0, 0u}, {-1.0, 1u}, {-5.0, 0u}, {.5, 1u}}) {
+  for (const auto& [x, expected] :
+       {std::pair(3.0, 0u), {1.0, 1u}, {2.0, 0u}, {-1.0, 1u}, {-5.0, 0u}, {.5, 1u}}) {
     pile.poses[2].x.x() = x;
     EXPECT_EQ(pile.find().size(), expected) << x;
   }

@@ -37,7 +37,8 @@ TEST(Motion, FastSphereIsFoundAtFirstTouchOfAThinBox) {  // 100 m/s, dt = 1/30: 
   EXPECT_NEAR(point.gap, 1.5 - .1 - .1, 1e-12);
 }
 
-TEST(Motion, FastSphereHitsTheSideItReachesFirst) {  // from above at a slope, not the nearest face at start
+TEST(Motion,
+     FastSphereHitsTheSideItReachesFirst) {  // from above at a slope, not the nearest face at start
   const Box block{Vec3(2, 1, 2)};
   const auto found = pass(Sphere{.1}, Vec3(-1.3, 1.4, 0), Vec3(1.3, -.5, 0), block);
   ASSERT_EQ(found.size(), 1u);
@@ -60,7 +61,8 @@ TEST(Motion, TwoFastSpheresMeetHalfWay) {
   const std::vector<Pose> to = {Pose{}, {Vec3(2, 0, 0), q}, {Vec3(-2, .1, 0), q}};
   const auto found = collider.find(from, to, 0.01);
   ASSERT_EQ(found.size(), 1u);
-  const Vec3 n(-std::sqrt(.03), -.1, 0);  // centres 0.2 apart at touch; the touch is found 1 mm early
+  const Vec3 n(-std::sqrt(.03), -.1,
+               0);  // centres 0.2 apart at touch; the touch is found 1 mm early
   EXPECT_NEAR((found[0].normal - n.normalized()).norm(), 0, 0.01);
 }
 
@@ -99,9 +101,11 @@ TEST(Motion, OfATouchAtTheStartIsIgnored) {  // the start decides, whatever the 
 
 TEST(Motion, ASpinningRodIsFoundWhereItsEndSweeps) {
   const Pose start{Vec3(0, 1, 0), Quat::Identity()}, end{start.x, turned(kZ, 90)};
-  const auto found = pass(Capsule{.05, 2}, start, end, Sphere{.2}, {Vec3(-.8, 1.6, 0), Quat::Identity()});
+  const auto found =
+      pass(Capsule{.05, 2}, start, end, Sphere{.2}, {Vec3(-.8, 1.6, 0), Quat::Identity()});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_TRUE(pass(Capsule{.05, 2}, start, end, Sphere{.2}, {Vec3(.8, 1.6, 0), Quat::Identity()}).empty());
+  EXPECT_TRUE(
+      pass(Capsule{.05, 2}, start, end, Sphere{.2}, {Vec3(.8, 1.6, 0), Quat::Identity()}).empty());
 }
 
 TEST(Motion, ARollingSphereKeepsItsGap) {
@@ -116,7 +120,8 @@ TEST(Motion, ARollingCylinderKeepsItsGap) {
   const std::vector<Pose> start = {Pose{}, {Vec3(0, .25, 0), turned(kX, 90)}, Pose{}};
   const auto found = meet(Cylinder{.25, 1}, start[1], Plane{}, start[2]);
   ASSERT_EQ(found.size(), 1u);
-  const std::vector<Pose> rolled = {Pose{}, {Vec3(.4, .25, 0), turned(kZ, -77) * start[1].q}, Pose{}};
+  const std::vector<Pose> rolled = {
+      Pose{}, {Vec3(.4, .25, 0), turned(kZ, -77) * start[1].q}, Pose{}};
   EXPECT_NEAR(smallestGap(found[0], rolled), 0, 1e-15);
 }
 
