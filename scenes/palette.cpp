@@ -28,7 +28,7 @@ render::Color opaque(const std::array<float, 3>& rgb) { return {rgb[0], rgb[1], 
 
 }  // namespace
 
-render::Color familyColor(Pattern pattern, int hue, int index) {
+render::Color familyColor(Pattern pattern, int hue, int index, int row) {
   const Hue& own = kHues[hue % kCount];
   switch (pattern) {
     case Pattern::kAlternate:
@@ -38,8 +38,11 @@ render::Color familyColor(Pattern pattern, int hue, int index) {
       return opaque(step / kCount % 2 == 0 ? kHues[step % kCount].plain
                                            : kHues[step % kCount].light);
     }
+    case Pattern::kRows: {
+      const Hue& ofRow = kHues[(hue + row) % kCount];
+      return opaque((index + row) % 2 == 0 ? ofRow.plain : ofRow.light);
+    }
     case Pattern::kSingle:
-    case Pattern::kHue:
       break;
   }
   return opaque(own.plain);

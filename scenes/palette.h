@@ -15,11 +15,11 @@ enum class Pattern {
   kSingle,     // each body alone: the next hue
   kAlternate,  // two tones of one hue in turn
   kVaried,     // all hues in turn
-  kHue,        // one hue for all
+  kRows,       // a hue for each row of equal height, two tones in turn along it
 };
 
-// `hue` counts families of bodies, `index` the bodies within one.
-render::Color familyColor(Pattern pattern, int hue, int index);
+// `hue` counts families of bodies, `index` the bodies within one, `row` their rows.
+render::Color familyColor(Pattern pattern, int hue, int index, int row = 0);
 render::Color fixedColor();
 
 // "#rrggbb" or the name of a hue.

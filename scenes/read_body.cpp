@@ -67,6 +67,8 @@ void readVelocity(TableReader& reader, physics::BodyDef& def) {
   }
 }
 
+}  // namespace
+
 void readBody(TableReader& reader, Recipe& recipe) {
   const std::string name =
       readName(reader, fmt::format("body.{}", recipe.trial().world.bodyCount() - 1));
@@ -98,10 +100,6 @@ void readBody(TableReader& reader, Recipe& recipe) {
   });
 }
 
-constexpr Word kBody[] = {{"body", readBody}};
-
-}  // namespace
-
 void readColor(TableReader& reader, std::optional<render::Color>& color) {
   const Value* value = reader.take("color");
   if (value == nullptr) return;
@@ -120,7 +118,5 @@ void readColor(TableReader& reader, std::optional<render::Color>& color) {
                      std::string(value->isString() ? didYouMean(value->text, colorNames()) : ""));
   }
 }
-
-std::span<const Word> bodyWords() { return kBody; }
 
 }  // namespace scenes

@@ -1,10 +1,15 @@
-// Parts of [[body]] that generators use as well.
+// [[body]] and [[ragdoll]], and what generators share with them.
 #pragma once
 
 #include "render/picture.h"
 #include "scenes/table_reader.h"
 
 namespace scenes {
+
+class Recipe;
+
+void readBody(TableReader& reader, Recipe& recipe);
+void readRagdoll(TableReader& reader, Recipe& recipe);
 
 // color = [r, g, b], "#rrggbb" or a hue's name.
 void readColor(TableReader& reader, std::optional<render::Color>& color);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace scenes {
 namespace {
 
@@ -48,12 +50,15 @@ void Built::alias(physics::BodyId body, const std::string& second) {
 }
 
 void Built::nameAll(const std::vector<physics::BodyId>& bodies, const std::string& family,
-                    Pattern pattern) {
+                    Pattern pattern, const std::optional<render::Color>& color) {
   const int hue = families++;
+  int row = 0;
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
+    const auto heightOf = [&](int k) { return world.bodies().pose[bodies[k]].x.y(); };
+    if (i > 0 && std::abs(heightOf(i) - heightOf(i - 1)) > 1e-6) ++row;
     const bool moves = world.bodies().motion[bodies[i]] == physics::Motion::kDynamic;
-    name(bodies[i], fmt::format("{}.{}", family, i),
-         moves ? familyColor(pattern, hue, i) : fixedColor());
+    const render::Color own = moves ? familyColor(pattern, hue, i, row) : fixedColor();
+    name(bodies[i], fmt::format("{}.{}", family, i), color.value_or(own));
   }
 }
 

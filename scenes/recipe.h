@@ -43,9 +43,9 @@ struct Built {
   // Names and colours the body; throws std::invalid_argument where the name is taken.
   void name(physics::BodyId body, const std::string& name, const render::Color& color);
   void alias(physics::BodyId body, const std::string& name);
-  // "name.0", "name.1", ... in the colours of a family of its own.
-  void nameAll(const std::vector<physics::BodyId>& bodies, const std::string& name,
-               Pattern pattern);
+  // "name.0", "name.1", ... in the colours of a family of its own, or all in one.
+  void nameAll(const std::vector<physics::BodyId>& bodies, const std::string& name, Pattern pattern,
+               const std::optional<render::Color>& color);
 };
 
 using Step = std::function<void(Built&)>;

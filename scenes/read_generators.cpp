@@ -1,0 +1,57 @@
+// Every word that makes bodies, each read through its own list of fields.
+#include "physics/make/arch.h"
+#include "physics/make/cards.h"
+#include "physics/make/chain.h"
+#include "physics/make/stack.h"
+#include "physics/make/stage.h"
+#include "scenes/read_body.h"
+#include "scenes/recipe.h"
+
+namespace scenes {
+namespace {
+
+template <class Def, Pattern pattern>
+void readGenerator(TableReader& reader, Recipe& recipe) {
+  Def def;
+  const unsigned seed = recipe.nextSeed();
+  if constexpr (requires { def.seed; }) def.seed = seed;
+  const std::string name = readName(reader, Def::kWord);
+  Def::fields(reader, def);
+  reader.atMostOne("mass", "density");
+  reader.atMostOne("shape", "length");
+  reader.atMostOne("to", "direction");
+  std::optional<render::Color> color;
+  readColor(reader, color);
+  recipe.add(reader, [=](Built& built) {
+    const std::vector<physics::BodyId> bodies = physics::add(built.world, def);
+    built.nameAll(bodies, name, pattern, color);
+    if constexpr (requires { def.end; }) built.alias(bodies.back(), name + ".end");
+  });
+}
+
+template <class Def, Pattern pattern>
+constexpr Word word() {
+  return {Def::kWord, readGenerator<Def, pattern>};
+}
+
+constexpr Word kWords[] = {
+    {"body", readBody},
+    word<physics::StackDef, Pattern::kRows>(),
+    word<physics::PyramidDef, Pattern::kRows>(),
+    word<physics::WallDef, Pattern::kRows>(),
+    word<physics::GridDef, Pattern::kVaried>(),
+    word<physics::ChainDef, Pattern::kAlternate>(),
+    word<physics::BridgeDef, Pattern::kAlternate>(),
+    word<physics::ArchDef, Pattern::kAlternate>(),
+    word<physics::CardHouseDef, Pattern::kAlternate>(),
+    word<physics::DominoesDef, Pattern::kAlternate>(),
+    word<physics::BowlDef, Pattern::kSingle>(),
+    word<physics::StairsDef, Pattern::kSingle>(),
+    {"ragdoll", readRagdoll},
+};
+
+}  // namespace
+
+std::span<const Word> bodyWords() { return kWords; }
+
+}  // namespace scenes
