@@ -1,0 +1,154 @@
+// Rows against differences of c, for every kind in the table.
+#include <cmath>
+
+#include "tests/physics/kind_cases.h"
+
+namespace physics::testing {
+namespace {
+
+// Central difference of c by coordinate k of body b: 0..2 dx, 3..5 a turn q <- exp(d) q.
+template <class Item>
+auto difference(const Item& item, const Bodies& bodies, int b, int k) {
+  constexpr double kStep = 1e-5;  // truncation 1e-10 of c''', rounding 1e-11: both below 1e-7
+  Vec3 dx = Vec3::Zero(), turn = Vec3::Zero();
+  (k < 3 ? dx : turn)[k % 3] = kStep;
+  Bodies ahead = bodies, behind = bodies;
+  displace(ahead.pose[b], dx, turn);
+  displace(behind.pose[b], -dx, -turn);
+  return ((rowOf(item, ahead).c - rowOf(item, behind).c) / (2 * kStep)).eval();
+}
+
+// Largest deviation of the rows from the differences, relative to the largest entry.
+template <class Item>
+double deviation(const Item& item, const Bodies& bodies) {
+  const auto row = rowOf(item, bodies);
+  double worst = 0, largest = 0;
+  for (int b = 0; b < 2; ++b) {
+    for (int k = 0; k < 6; ++k) {
+      const auto& block = k < 3 ? row.linear[b] : row.angular[b];
+      const auto wrong = (block.col(k % 3) - difference(item, bodies, b, k)).eval();
+      worst = std::max(worst, wrong.cwiseAbs().maxCoeff());
+      largest = std::max(largest, block.col(k % 3).cwiseAbs().maxCoeff());
+    }
+  }
+  return worst / largest;
+}
+
+template <class K>
+class Gradient : public ::testing::Test {};
+TYPED_TEST_SUITE(Gradient, ListOf<Kinds>::Types, KindName);
+
+TYPED_TEST(Gradient, IsTheDerivativeOfTheError) {
+  using Item = typename TypeParam::Item;
+  Random random(1);
+  for (int n = 0; n < 300; ++n) {
+    Bodies bodies = randomPair(random);
+    const Item item = Case<Item>::make(random, bodies);
+    Case<Item>::toGradient(item, random, bodies);
+    ASSERT_LT(deviation(item, bodies), 1e-7) << "configuration " << n;
+  }
+}
+
+// A drive's rows are -1 and +1; c is a rotation vector, whose derivative is 1 - [theta]x/2 + ...
+// So they are the gradient on the target and leave it at first order, by half the error.
+TEST(DriveGradient, IsOffByHalfTheErrorToFirstOrder) {
+  Random random(2);
+  for (int n = 0; n < 100; ++n) {
+    Bodies bodies = randomPair(random);
+    Drive item = Case<Drive>::make(random, bodies);
+    item.damping = 0;
+    Case<Drive>::toGradient(item, random, bodies);
+    const double theta = 0.01;
+    bodies.pose[1].q = exponential(theta * random.inBall(1).normalized()) * bodies.pose[1].q;
+    EXPECT_LT(deviation(item, bodies), 0.51 * theta);
+  }
+}
+
+// A motor reads turns about its axis; a turn across it bends the rows at first order.
+TEST(MotorGradient, IsOffByTheTurnAcrossItsAxisToFirstOrder) {
+  Random random(3);
+  for (int n = 0; n < 100; ++n) {
+    Bodies bodies = randomPair(random);
+    const Motor item = Case<Motor>::make(random, bodies);
+    bodies.pose = bodies.start;
+    const Vec3 across = anyNormalTo(bodies.pose[0].q * item.axisI);
+    bodies.pose[1].q = exponential(0.01 * across) * bodies.pose[1].q;
+    EXPECT_LT(deviation(item, bodies), 1.01 * 0.01 * std::sqrt(3));  // largest entry >= 1/sqrt 3
+  }
+}
+
+// c of the scalar form is phi, and (81) with its signs turned gives -w, +w.
+TEST(AxleGradient, AlongItsErrorIsTheAxisBetween) {
+  Random random(4);
+  for (int n = 0; n < 100; ++n) {
+    Bodies bodies = randomPair(random);
+    const Axle item = Case<Axle>::make(random, bodies);
+    const auto row = rowOf(item, bodies);
+    const Vec3 ni = bodies.pose[0].q * item.axisI, nj = bodies.pose[1].q * item.frameJ.col(2);
+    const Vec3 along = row.angular[0].transpose() * row.c.normalized();
+    EXPECT_LT((along + ni.cross(nj).normalized()).norm(), 1e-9);
+    EXPECT_NEAR(row.c.norm(), angleOf(ni, nj), 1e-14);
+  }
+}
+
+template <class Item>
+bool isFinite(const Item& item, Bodies bodies) {
+  const auto row = rowOf(item, bodies);
+  bool finite = row.c.allFinite();
+  for (int b = 0; b < 2; ++b) {
+    finite = finite && row.linear[b].allFinite() && row.angular[b].allFinite();
+  }
+  Multipliers<Item> lambda;
+  return finite && visit(item, lambda, bodies) && lambda.total.allFinite() &&
+         bodies.pose[0].q.coeffs().allFinite() && bodies.pose[1].q.coeffs().allFinite();
+}
+
+TEST(DegenerateGradient, IsFiniteForParallelAndAntiparallelAxesAndBesideThem) {
+  for (const double away : {0.0, 1e-300, 1e-160, 1e-15, 1e-9, 1e-7, 1.1e-7, 1e-4}) {
+    for (const double side : {0.0, kPi}) {
+      Bodies bodies = bodiesOf({{}, {}});
+      bodies.pose[1].q = exponential(Vec3(0, 0, side + away));
+      EXPECT_TRUE(
+          isFinite(Axle{{0, 1}, Vec3::UnitX(), about({0, 1, 0}, kPi / 2).matrix()}, bodies));
+      EXPECT_TRUE(isFinite(ConeLimit{{0, 1}, {Vec3::UnitX(), Vec3::UnitX()}, 0}, bodies));
+      EXPECT_TRUE(isFinite(Drive{{0, 1}}, bodies));
+    }
+  }
+}
+
+TEST(DegenerateGradient, IsFiniteForCoincidentPointsAndBesideThem) {
+  for (const double away : {0.0, 1e-300, 1e-160, 1e-15, 1e-12, 1.1e-12, 1e-7}) {
+    Bodies bodies = bodiesOf({{}, {}});
+    bodies.pose[1].x.x() = away;
+    EXPECT_TRUE(isFinite(Distance{{0, 1}}, bodies));
+    EXPECT_TRUE(isFinite(Spring{{0, 1}}, bodies));
+    EXPECT_TRUE(isFinite(BallSocket{{0, 1}}, bodies));
+    EXPECT_TRUE(
+        isFinite(BallSocket{{0, 1}, {Vec3(0, 0, 0), Vec3(0, 0, 0)}, Form::kScalar}, bodies));
+  }
+}
+
+TEST(DegenerateGradient, IsFiniteForATwistAtASwingOfAHalfTurn) {
+  for (const double away : {0.0, 1e-15, 1e-7, 1e-6, 1e-3}) {
+    Bodies bodies = bodiesOf({{}, {}});
+    bodies.pose[1].q = exponential(Vec3(0, kPi - away, 0));
+    EXPECT_TRUE(isFinite(TwistLimit{{0, 1}, Vec3::UnitX(), Quat::Identity(), 0.1, 0.2}, bodies));
+  }
+}
+
+TEST(DegenerateGradient, PartsCoincidentPointsOfADistance) {
+  Bodies bodies = bodiesOf({{}, {}});
+  iterate(Distance{{0, 1}, {Vec3::Zero(), Vec3::Zero()}, 0.5}, bodies, 3);
+  EXPECT_NEAR((bodies.pose[0].x - bodies.pose[1].x).norm(), 0.5, 1e-12);
+}
+
+TEST(DegenerateGradient, ClosesAnAntiparallelAxle) {
+  Bodies bodies = bodiesOf({{}, {}});
+  bodies.pose[1].q = exponential(Vec3(0, 0, kPi));
+  const Axle item{{0, 1}, Vec3::UnitX(), about({0, 1, 0}, kPi / 2).toRotationMatrix()};
+  iterate(item, bodies, 5);
+  EXPECT_LT(angleOf(bodies.pose[0].q * item.axisI, bodies.pose[1].q * item.frameJ.col(2)), 1e-10);
+}
+
+}  // namespace
+}  // namespace physics::testing

@@ -1,0 +1,171 @@
+// The kinds' cases.
+#include "tests/physics/kind_cases.h"
+
+namespace physics::testing {
+namespace {
+
+constexpr double kFar = 0.15;  // from singular places: there differences lose their digits
+
+Vec3 axis(Random& random) { return random.rotation(kPi) * Vec3::UnitX(); }
+
+// Where a body was at the start of the substep, in a motion of everyday speed.
+void moveStart(Random& random, Bodies& bodies) {
+  for (int b = 0; b < bodies.size(); ++b) {
+    displace(bodies.start[b], random.inBall(0.1), random.inBall(0.3));
+  }
+}
+
+template <class Item>
+Vec3 between(const Item& item, const Bodies& bodies) {
+  const Pose &i = bodies.pose[0], &j = bodies.pose[1];
+  return (i.x + i.q * item.anchors[0]) - (j.x + j.q * item.anchors[1]);
+}
+
+template <class Item>
+void anchorsApart(Item& item, Random& random, const Bodies& bodies) {
+  do {
+    item.anchors = {random.inBall(1), random.inBall(1)};
+  } while (between(item, bodies).norm() < kFar);
+}
+
+template <class Item>
+Item swapAnchors(Item item) {
+  std::swap(item.anchors[0], item.anchors[1]);
+  return item;
+}
+
+}  // namespace
+
+Spring Case<Spring>::make(Random& random, Bodies& bodies) {
+  moveStart(random, bodies);
+  Spring item{{0, 1}, {}, random.uniform(50, 500), random.uniform(0, 5), random.uniform(0, 2)};
+  anchorsApart(item, random, bodies);
+  return item;
+}
+void Case<Spring>::satisfy(Spring& item, Bodies& bodies) {
+  bodies.start = bodies.pose;
+  item.restLength = between(item, bodies).norm();
+}
+Spring Case<Spring>::swapped(Spring item, const Bodies&) { return swapAnchors(item); }
+
+Drive Case<Drive>::make(Random& random, Bodies& bodies) {
+  moveStart(random, bodies);
+  const Quat off = random.rotation(2);
+  const Quat target = bodies.pose[0].q.conjugate() * off * bodies.pose[1].q;
+  return {{0, 1}, target, random.uniform(5, 50), random.uniform(0, 1)};
+}
+void Case<Drive>::toGradient(const Drive& item, Random&, Bodies& bodies) {
+  bodies.pose[1].q = bodies.pose[0].q * item.target;
+  bodies.start = bodies.pose;
+}
+void Case<Drive>::satisfy(Drive& item, Bodies& bodies) {
+  bodies.start = bodies.pose;
+  item.target = bodies.pose[0].q.conjugate() * bodies.pose[1].q;
+}
+Drive Case<Drive>::swapped(Drive item, const Bodies&) {
+  item.target = item.target.conjugate();
+  return item;
+}
+
+Motor Case<Motor>::make(Random& random, Bodies& bodies) {
+  moveStart(random, bodies);
+  return {{0, 1}, axis(random), random.uniform(1, 9)};
+}
+void Case<Motor>::toGradient(const Motor& item, Random& random, Bodies& bodies) {
+  const Vec3 n = bodies.start[0].q * item.axisI;
+  for (int b = 0; b < 2; ++b) {
+    bodies.pose[b].q = about(n, random.uniform(-1, 1)) * bodies.start[b].q;
+  }
+}
+void Case<Motor>::satisfy(Motor& item, Bodies& bodies) {
+  bodies.start = bodies.pose;
+  item.speed = 0;
+}
+Motor Case<Motor>::swapped(Motor item, const Bodies& bodies) {
+  item.axisI = -(bodies.pose[1].q.conjugate() * (bodies.pose[0].q * item.axisI));
+  return item;
+}
+
+Distance Case<Distance>::make(Random& random, Bodies& bodies) {
+  Distance item{{0, 1}, {}, 0, random.uniform(0, 1) < 0.5};
+  anchorsApart(item, random, bodies);
+  item.length = between(item, bodies).norm() * random.uniform(0.4, item.rope ? 0.9 : 1.5);
+  return item;
+}
+void Case<Distance>::satisfy(Distance& item, Bodies& bodies) {
+  item.length = between(item, bodies).norm();
+}
+Distance Case<Distance>::swapped(Distance item, const Bodies&) { return swapAnchors(item); }
+
+ConeLimit Case<ConeLimit>::make(Random& random, Bodies& bodies) {
+  ConeLimit item{{0, 1}, {}, 0};
+  double phi = 0;
+  do {
+    item.axes = {axis(random), axis(random)};
+    phi = angleOf(bodies.pose[0].q * item.axes[0], bodies.pose[1].q * item.axes[1]);
+  } while (phi < kFar || phi > kPi - kFar);
+  item.angle = phi * random.uniform(0.3, 0.9);
+  return item;
+}
+void Case<ConeLimit>::satisfy(ConeLimit& item, Bodies&) { item.angle = kPi; }
+ConeLimit Case<ConeLimit>::swapped(ConeLimit item, const Bodies&) {
+  std::swap(item.axes[0], item.axes[1]);
+  return item;
+}
+
+TwistLimit Case<TwistLimit>::make(Random& random, Bodies& bodies) {
+  TwistLimit item{{0, 1}, axis(random), random.rotation(kPi), 0, 0};
+  Quat d;
+  do {
+    item.reference = random.rotation(kPi);
+    d = bodies.pose[0].q.conjugate() * bodies.pose[1].q * item.reference.conjugate();
+  } while (std::hypot(d.w(), d.vec().dot(item.axisI)) < 2 * kFar || std::abs(d.w()) < kFar);
+  const double tau = item.twist({bodies.pose, bodies.start, 1});
+  const bool above = random.uniform(0, 1) < 0.5;
+  item.low = above ? tau - 0.7 : tau + 0.2;
+  item.high = item.low + 0.4;
+  return item;
+}
+void Case<TwistLimit>::satisfy(TwistLimit& item, Bodies& bodies) {
+  const double tau = item.twist({bodies.pose, bodies.start, 1});
+  item.low = tau - 0.1;
+  item.high = tau + 0.3;
+}
+TwistLimit Case<TwistLimit>::swapped(TwistLimit item, const Bodies&) {
+  item.axisI = item.reference.conjugate() * item.axisI;
+  item.reference = item.reference.conjugate();
+  item.low = -std::exchange(item.high, -item.low);
+  return item;
+}
+
+Axle Case<Axle>::make(Random& random, Bodies& bodies) {
+  Axle item{{0, 1}, Vec3::UnitX(), Mat3::Identity()};
+  do {
+    item.axisI = axis(random);
+    item.frameJ = random.rotation(kPi).toRotationMatrix();
+  } while (angleOf(bodies.pose[0].q * item.axisI, bodies.pose[1].q * item.frameJ.col(2)) >
+           kPi - kFar);
+  return item;
+}
+void Case<Axle>::satisfy(Axle& item, Bodies& bodies) {
+  item.axisI = bodies.pose[0].q.conjugate() * (bodies.pose[1].q * item.frameJ.col(2));
+}
+Axle Case<Axle>::swapped(Axle item, const Bodies&) {
+  const Vec3 n = item.axisI, u = anyNormalTo(n);
+  item.axisI = item.frameJ.col(2);
+  item.frameJ << u, n.cross(u), n;
+  return item;
+}
+
+BallSocket Case<BallSocket>::make(Random& random, Bodies& bodies) {
+  BallSocket item{{0, 1}, {}};
+  anchorsApart(item, random, bodies);
+  return item;
+}
+void Case<BallSocket>::satisfy(BallSocket& item, Bodies& bodies) {
+  const Vec3 p = bodies.pose[0].x + bodies.pose[0].q * item.anchors[0];
+  item.anchors[1] = bodies.pose[1].q.conjugate() * (p - bodies.pose[1].x);
+}
+BallSocket Case<BallSocket>::swapped(BallSocket item, const Bodies&) { return swapAnchors(item); }
+
+}  // namespace physics::testing

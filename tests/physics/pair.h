@@ -1,0 +1,68 @@
+// Two bodies, or a few, outside a World: what the solver sees, for tests of one constraint.
+#pragma once
+
+#include "physics/constraint.h"
+#include "physics/effects/free_motion.h"
+#include "physics/make/matter.h"
+
+namespace physics::testing {
+
+constexpr double kDegree = kPi / 180;
+
+struct BodyOf {
+  double mass = 1;              // kg; 0: immovable
+  Vec3 inertia = Vec3::Ones();  // kg m^2; zeros: a point
+  Pose pose;
+};
+
+// Adds a body at rest; its pose is the start of the substep too.
+BodyId add(Bodies& bodies, const BodyOf& def);
+
+Bodies bodiesOf(std::initializer_list<BodyOf> defs);
+
+// A pair with random masses and inertias (the triangle rule holds) near the origin.
+Bodies randomPair(Random& random);
+
+Quat about(const Vec3& axis, double angle);  // angle [rad]
+
+struct Momenta {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  // times the substep; about the origin
+  double linearScale = 0, angularScale = 0;            // sums of the magnitudes they are made of
+};
+// What a solve that moved `before` to `after` gave the bodies.
+Momenta given(const Bodies& before, const Bodies& after);
+
+template <class C>
+typename Set<C>::Tuned plain() {
+  return {1, 0, false};
+}
+
+// One visit to the constraint, inertia as it stands.
+template <class C>
+bool visit(const C& item, Multipliers<C>& lambda, Bodies& bodies, double dt = 1.0 / 60) {
+  return solve(item, lambda, plain<C>(), bodies, dt);
+}
+
+// Visits as a World with this constraint alone makes them: fresh inertia for each.
+template <class C>
+Multipliers<C> iterate(const C& item, Bodies& bodies, int visits, double dt = 1.0 / 60) {
+  Multipliers<C> lambda;
+  for (int k = 0; k < visits; ++k) {
+    refreshInertia(bodies);
+    visit(item, lambda, bodies, dt);
+  }
+  return lambda;
+}
+
+template <class C>
+Row<C::kBodies, C::kRows> rowOf(const C& item, const Bodies& bodies, double dt = 1.0 / 60) {
+  Row<C::kBodies, C::kRows> row;
+  for (int b = 0; b < C::kBodies; ++b) row.linear[b].setZero(), row.angular[b].setZero();
+  item.evaluate({bodies.pose, bodies.start, dt}, row);
+  return row;
+}
+
+// The angle between two vectors [rad], by the C library.
+double angleOf(const Vec3& a, const Vec3& b);
+
+}  // namespace physics::testing
