@@ -11,7 +11,7 @@ namespace render {
 namespace {
 
 // Segments around a round body, by level of detail. A silhouette of n segments is off by
-// 5 r / n^2 pixels, so each level serves radii up to n^2 / 50 pixels with an error of a tenth.
+// 5 r / n^2 pixels, so each level serves radii up to n^2 / 25 pixels with an error of a fifth.
 constexpr std::array<int, 4> kSegments = {16, 32, 64, 128};
 constexpr std::size_t kLevels = kSegments.size();
 constexpr std::size_t kFirstMesh = 1 + 3 * kLevels;
@@ -19,7 +19,7 @@ constexpr std::size_t kFirstMesh = 1 + 3 * kLevels;
 std::size_t levelFor(float radiusInPixels) {
   std::size_t level = 0;
   while (level + 1 < kLevels &&
-         radiusInPixels > static_cast<float>(kSegments[level] * kSegments[level]) / 50)
+         radiusInPixels > static_cast<float>(kSegments[level] * kSegments[level]) / 25)
     ++level;
   return level;
 }

@@ -24,7 +24,6 @@ class Bodies {
 
   void drawCasters() const;  // opaque and half opaque ones, into a shadow map
   void draw() const;         // all, into a framebuffer of premultiplied colour
-  bool empty() const { return batches_.empty(); }
 
  private:
   struct Shape {  // a geometry on the GPU

@@ -27,7 +27,7 @@ struct FrameBlock {
   Eigen::Vector4f groundFade;  // centre x and z, distances where it begins to fade and is gone
   Eigen::Vector4f groundColor;
   Eigen::Vector4f background;
-  Eigen::Vector4f shadow;          // 1 when on, offset along the normal [m], step of taps, taps per side
+  Eigen::Vector4f shadow;  // 1 when on, offset along the normal [m], step of taps, taps per side
   Eigen::Vector4f shadowOfGround;  // depth of the ground in the map: x u + y v + z; w: softening
   Eigen::Vector4f
       pixels;  // width, height of the scene in pixels, edge width in px, radius in focus

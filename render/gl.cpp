@@ -1,6 +1,8 @@
 // Programs, textures and framebuffers, each made in one call.
 #include "render/gl.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -122,6 +124,20 @@ GLuint makeFramebuffer(GLuint colorTexture, const char* name) {
   requireCompleteFramebuffer(name);
   return framebuffer;
 }
+
+void cutTo(const Bounds& bounds, int width, int height, int margin) {
+  const auto pixel = [](float share, int size) {
+    return static_cast<int>(std::floor(share * static_cast<float>(size)));
+  };
+  const int left = pixel(bounds.low.x(), width) - margin;
+  const int bottom = pixel(bounds.low.y(), height) - margin;
+  const int right = pixel(bounds.high.x(), width) + 1 + margin;
+  const int top = pixel(bounds.high.y(), height) + 1 + margin;
+  glScissor(left, bottom, std::max(right - left, 0), std::max(top - bottom, 0));
+  glEnable(GL_SCISSOR_TEST);
+}
+
+void uncut() { glDisable(GL_SCISSOR_TEST); }
 
 void drawWholeViewport() { glDrawArrays(GL_TRIANGLES, 0, 3); }
 

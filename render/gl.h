@@ -7,6 +7,8 @@
 
 #include <string>
 
+#include "render/bounds.h"
+
 namespace render {
 
 // Compiles and links; `defines` goes in front of both sources. Throws std::runtime_error with the
@@ -25,6 +27,10 @@ GLuint makeRenderbuffer(GLenum internalFormat, int samples, int width, int heigh
 void requireCompleteFramebuffer(const char* name);
 // A framebuffer with one colour texture and nothing else.
 GLuint makeFramebuffer(GLuint colorTexture, const char* name);
+
+// Cuts all that follows, clears too, to these pixels and `margin` more.
+void cutTo(const Bounds& bounds, int width, int height, int margin);
+void uncut();
 
 // Draws one triangle over the whole viewport; the vertex shader makes its corners from gl_VertexID.
 void drawWholeViewport();

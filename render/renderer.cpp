@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "render/bodies.h"
+#include "render/bounds.h"
 #include "render/canvas.h"
 #include "render/context.h"
 #include "render/floor.h"
@@ -45,7 +46,8 @@ struct Renderer::Impl {
   ~Impl() = default;
 
   void upload(const Frame& frame) const;
-  void drawBodies(const Frame& frame);
+  void drawGround(const Frame& frame) const;
+  void drawBodies(const Bounds& bounds);
   void finishScene() const;
   void readBack();
 
@@ -104,27 +106,31 @@ void Renderer::Impl::upload(const Frame& frame) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBuffer);
 }
 
-void Renderer::Impl::drawBodies(const Frame& frame) {
+void Renderer::Impl::drawGround(const Frame& frame) const {
+  const Color& back = frame.block.background;
   glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer);
   glViewport(0, 0, scene.width, scene.height);
-  glClearColor(frame.block.background.x(), frame.block.background.y(), frame.block.background.z(),
-               1);
+  glClearColor(back.x(), back.y(), back.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT);
   if (frame.groundDrawn) floor.draw();
+}
+
+// Bodies go into a multisampled framebuffer of their own and from there over the ground.
+void Renderer::Impl::drawBodies(const Bounds& bounds) {
+  if (bounds.empty()) return;
+  const bool smooth = detail.samples > 1;
+  cutTo(bounds, scene.width, scene.height, 1);
   glBindFramebuffer(GL_FRAMEBUFFER, bodyFramebuffer);
   glClearColor(0, 0, 0, 0);
-  glClear(GL_DEPTH_BUFFER_BIT | (detail.samples > 1 ? GL_COLOR_BUFFER_BIT : 0u));
+  glClear(GL_DEPTH_BUFFER_BIT | (smooth ? GL_COLOR_BUFFER_BIT : 0u));
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_CLIP_DISTANCE0);
   bodies.draw();
   glDisable(GL_CLIP_DISTANCE0);
   strokes.drawHidden();
   glDisable(GL_DEPTH_TEST);
-}
-
-void Renderer::Impl::finishScene() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer);
-  if (detail.samples > 1) {
+  if (smooth) {
+    glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer);
     glUseProgram(resolveProgram);
     glBindVertexArray(emptyArray);
     bindTexture(kSourceUnit, GL_TEXTURE_2D_MULTISAMPLE, bodyTexture);
@@ -132,12 +138,19 @@ void Renderer::Impl::finishScene() const {
     drawWholeViewport();
     glDisable(GL_BLEND);
   }
+  uncut();
+}
+
+void Renderer::Impl::finishScene() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer);
   strokes.drawOnTop();
   if (detail.supersample > 1) {  // a linear fetch between four pixels is their mean
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture.framebuffer);
     glBlitFramebuffer(0, 0, scene.width, scene.height, 0, 0, picture.width, picture.height,
                       GL_COLOR_BUFFER_BIT, GL_LINEAR);
   }
+  glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer);
+  glViewport(0, 0, picture.width, picture.height);
 }
 
 // Rows from the top, without alpha.
@@ -168,11 +181,10 @@ const Image& Renderer::draw(const Picture& picture) {
   my.upload(frame);
   my.bodies.arrange(picture, frame);
   my.strokes.arrange(picture, frame);
-  if (picture.light.shadows) my.shadow.draw(my.bodies, frame);
-  my.drawBodies(frame);
+  if (picture.light.shadows) my.shadow.draw(my.bodies, frame, shadowBoundsOf(picture, frame));
+  my.drawGround(frame);
+  my.drawBodies(screenBoundsOf(picture, frame));
   my.finishScene();
-  glBindFramebuffer(GL_FRAMEBUFFER, my.picture.framebuffer);
-  glViewport(0, 0, my.picture.width, my.picture.height);
   drawOverlay(my.canvas, picture, frame, my.picture.width, my.picture.height);
   my.readBack();
   return my.image;

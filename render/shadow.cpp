@@ -4,6 +4,11 @@
 #include "render/shaders.h"
 
 namespace render {
+namespace {
+
+constexpr int kReach = 8;  // texels of a mask that the filters carry a shadow beyond its caster
+
+}  // namespace
 
 Shadow::Shadow(int size) : size_(size) {
   map_ = makeTexture(GL_DEPTH_COMPONENT16, size, size, GL_NEAREST);
@@ -45,24 +50,28 @@ Shadow::Layer Shadow::makeLayer(int size) {
   return layer;
 }
 
-void Shadow::filter(GLuint program, GLuint source, const Layer& target) {
+void Shadow::filter(GLuint program, GLuint source, const Layer& target, const Bounds& bounds) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   glViewport(0, 0, target.size, target.size);
+  glClear(GL_COLOR_BUFFER_BIT);
+  cutTo(bounds, target.size, target.size, kReach);
   glUseProgram(program);
   bindTexture(kSourceUnit, GL_TEXTURE_2D, source);
   drawWholeViewport();
+  uncut();
 }
 
-void Shadow::drawMasks() const {
+void Shadow::drawMasks(const Bounds& bounds) const {
   glBindVertexArray(array_);
-  filter(maskProgram_, map_, mask_);
-  filter(sharpProgram_, mask_.texture, sharp_);
-  filter(wideProgram_, mask_.texture, wide_);
-  filter(acrossProgram_, wide_.texture, wideAcross_);
-  filter(upProgram_, wideAcross_.texture, wide_);
+  glClearColor(0, 0, 0, 0);
+  filter(maskProgram_, map_, mask_, bounds);
+  filter(sharpProgram_, mask_.texture, sharp_, bounds);
+  filter(wideProgram_, mask_.texture, wide_, bounds);
+  filter(acrossProgram_, wide_.texture, wideAcross_, bounds);
+  filter(upProgram_, wideAcross_.texture, wide_, bounds);
 }
 
-void Shadow::draw(const Bodies& bodies, const Frame& frame) const {
+void Shadow::draw(const Bodies& bodies, const Frame& frame, const Bounds& bounds) const {
   glBindFramebuffer(GL_FRAMEBUFFER, mapFramebuffer_);
   glViewport(0, 0, size_, size_);
   glEnable(GL_DEPTH_TEST);
@@ -76,7 +85,7 @@ void Shadow::draw(const Bodies& bodies, const Frame& frame) const {
   glDisable(GL_CLIP_DISTANCE0);
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_DEPTH_TEST);
-  if (frame.groundDrawn) drawMasks();
+  if (frame.groundDrawn) drawMasks(bounds);
   bindTexture(kShadowUnit, GL_TEXTURE_2D, map_);
   glBindSampler(kShadowUnit, compare_);
   bindTexture(kSharpUnit, GL_TEXTURE_2D, sharp_.texture);

@@ -13,8 +13,8 @@ class Shadow {
  public:
   explicit Shadow(int size);
 
-  // Leaves the map and the masks bound to their texture units.
-  void draw(const Bodies& bodies, const Frame& frame) const;
+  // `bounds` encloses the casters. Leaves the map and the masks bound to their texture units.
+  void draw(const Bodies& bodies, const Frame& frame, const Bounds& bounds) const;
 
  private:
   struct Layer {
@@ -22,8 +22,8 @@ class Shadow {
     int size = 0;
   };
   static Layer makeLayer(int size);
-  static void filter(GLuint program, GLuint source, const Layer& target);
-  void drawMasks() const;
+  static void filter(GLuint program, GLuint source, const Layer& target, const Bounds& bounds);
+  void drawMasks(const Bounds& bounds) const;
 
   int size_ = 0;
   GLuint map_ = 0, mapFramebuffer_ = 0, compare_ = 0, array_ = 0;

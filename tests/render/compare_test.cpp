@@ -91,6 +91,21 @@ TEST(Gate, FailsOnATileThatIsMoreThanAQuarterBadInALargeImage) {
   EXPECT_EQ(result.worstTile, 65);
 }
 
+// 480 x 270 pixels: the budgets are 25 and 12 pixels.
+TEST(Gate, CountsVisibleAndStrongPixelsApart) {
+  const Image want{480, 270, std::vector<std::uint8_t>(3 * 480 * 270, 100)};
+  const auto passes = [&want](std::size_t count, std::uint8_t level) {
+    Image got = want;
+    for (std::size_t i = 0; i < count; ++i) got.rgb[3 * 1000 * i] = level;
+    return compareImages(want, got).passed;
+  };
+  EXPECT_TRUE(passes(120, 102));
+  EXPECT_TRUE(passes(25, 103));
+  EXPECT_FALSE(passes(26, 103));
+  EXPECT_TRUE(passes(12, 133));
+  EXPECT_FALSE(passes(13, 133));
+}
+
 TEST(Gate, PicturesTheDifference) {
   Image other = golden();
   other.rgb[0] = static_cast<std::uint8_t>(other.rgb[0] ^ 0x80);

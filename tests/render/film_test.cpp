@@ -49,6 +49,8 @@ TEST_F(Film, HasEveryFrameEvenSizesAndTheColourTags) {
   writeFrames(7, 65, 33);
   const FilmReport report = makeFilm(frameFiles(folder / "frames", 0, 6), folder / "film.mp4");
   EXPECT_EQ(report.frames, 7);
+  EXPECT_EQ(report.width, 66);
+  EXPECT_EQ(report.height, 34);
   EXPECT_EQ(report.bytes, fs::file_size(folder / "film.mp4"));
   EXPECT_EQ(probe("stream=width,height,pix_fmt,color_space,color_transfer,color_primaries,"
                   "r_frame_rate"),
@@ -103,6 +105,21 @@ TEST_F(Film, LeavesNothingWhenTheEncoderFailsOrAFrameIsCut) {
   fs::resize_file(frames[1], 60);
   EXPECT_NE(messageOf({}, frames), "made");
   EXPECT_EQ(filesIn(), 1u);
+}
+
+TEST(Child, ThatClosesItsInputDoesNotEndUs) {
+  const std::string much(1 << 20, 'a');
+  const ChildResult result = runChild({"true"}, [&much](const Feed& feed) {
+    while (feed(much.data(), much.size())) continue;
+  });
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_FALSE(result.inputTaken);
+}
+
+TEST(Child, GetsItsInputAndReturnsWhatItPrints) {
+  const auto write = [](const Feed& feed) { feed("to and fro", 10); };
+  EXPECT_EQ(runChild({"cat"}, write).output, "to and fro");
+  EXPECT_FALSE(runChild({"no-such-program"}).started);
 }
 
 }  // namespace

@@ -101,6 +101,25 @@ TEST(Renderer, TranslucentBodiesLetThoseBehindShow) {
   EXPECT_GT(pixel.b, 60);
 }
 
+TEST(Renderer, TranslucentBodiesAreMixedFromTheFarthestToTheNearest) {
+  Picture picture = bare();
+  Instance blue = box({1, 1, 0.1f}, {0, 0, -1}, {0.1f, 0.1f, 0.8f, 0.6f});
+  Instance red = box({1, 1, 0.1f}, {0, 0, 1}, kRed);
+  red.color.w() = 0.6f;
+  picture.instances = {red, blue};
+  const Rgb pixel = at(renderer().draw(picture), 80, 60);
+  EXPECT_GT(pixel.r, pixel.b);
+}
+
+TEST(Renderer, ShowsBodiesThatReachFarOutOfTheFocusAndBehindTheCamera) {
+  Picture picture = bare();
+  picture.focusRadius = 0.1f;
+  picture.instances = {box({0.5f, 0.5f, 0.5f}, {0, 0, 3}, kRed)};
+  EXPECT_LT(at(renderer().draw(picture), 80, 60).g, 100);
+  picture.instances = {box({4, 0.1f, 40}, {0, -0.5f, 0}, kRed)};
+  EXPECT_LT(at(renderer().draw(picture), 80, 100).g, 100);
+}
+
 TEST(Renderer, AMeshOfABoxLooksLikeTheBox) {
   auto mesh = std::make_shared<Mesh>();
   mesh->positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
@@ -125,7 +144,7 @@ TEST(Renderer, TheGroundHidesWhatIsBelowItAndTakesShadow) {
   picture.camera.eye = {0, 6, 0.1f};
   picture.light.direction = {-0.5f, -1, 0};
   const Rgb empty = at(renderer().draw(picture), 60, 60);
-  picture.instances = {box({0.5f, 0.5f, 0.5f}, {-0.5f, -1, 0}, kBlack)};
+  picture.instances = {box({1, 0.5f, 1}, {-0.8f, -1, 0}, kBlack)};
   EXPECT_EQ(at(renderer().draw(picture), 60, 60).sum(), empty.sum());
   picture.instances = {box({1, 0.1f, 1}, {0.3f, 1.5f, 0}, kBlack)};
   EXPECT_LT(at(renderer().draw(picture), 60, 60).sum(), empty.sum() - 60);
@@ -156,6 +175,8 @@ TEST(Renderer, LinesOnTopAreSeenThroughBodiesAndOthersAreNot) {
   EXPECT_EQ(at(renderer().draw(picture), 80, 60).r, covered);
   picture.lines[0].onTop = true;
   EXPECT_EQ(at(renderer().draw(picture), 80, 60).b, 255);
+  picture.lines = {{{-1, 0, 1}, {1, 0, 1}, {0, 0, 1, 1}, 24, false, false}};
+  EXPECT_EQ(at(renderer().draw(picture), 80, 60).b, 255);  // it is in front
 }
 
 TEST(Renderer, OnlyAMarkedBallShowsItsTurning) {
