@@ -7,47 +7,10 @@
 #include <limits>
 
 #include "render/compare.h"
-#include "sample.h"
+#include "seen.h"
 
 namespace render {
 namespace {
-
-constexpr int kWidth = 160, kHeight = 120;
-
-Renderer& renderer() {
-  static Renderer shared({kWidth, kHeight, Quality::kStandard, ""});
-  return shared;
-}
-
-struct Rgb {
-  int r, g, b;
-  int sum() const { return r + g + b; }
-};
-
-Rgb at(const Image& image, int x, int y) {
-  const std::size_t i = 3 * static_cast<std::size_t>(y * image.width + x);
-  return {image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]};
-}
-
-// A camera on the z axis looks at the origin; no ground.
-Picture bare() {
-  Picture picture;
-  picture.camera = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 40};
-  picture.ground.visible = false;
-  picture.focusCenter = {0, 0, 0};
-  picture.focusRadius = 2;
-  return picture;
-}
-
-Instance box(const Vec3f& size, const Vec3f& position, const Color& color) {
-  Instance instance;
-  instance.size = size;
-  instance.position = position;
-  instance.color = color;
-  return instance;
-}
-
-const Color kRed(0.8f, 0.1f, 0.1f, 1), kBlack(0, 0, 0, 1);
 
 TEST(Renderer, ShowsTheBackgroundWhereNothingIs) {
   Picture picture = bare();
@@ -135,36 +98,6 @@ TEST(Renderer, AMeshOfABoxLooksLikeTheBox) {
   const Rgb expected = at(renderer().draw(picture), 80, 60);
   EXPECT_NEAR(seen.r, expected.r, 1);
   EXPECT_NEAR(seen.g, expected.g, 1);
-}
-
-TEST(Renderer, TheGroundHidesWhatIsBelowItAndTakesShadow) {
-  Picture picture = bare();
-  picture.ground.visible = true;
-  picture.ground.spacing = 100;
-  picture.camera.eye = {0, 6, 0.1f};
-  picture.light.direction = {-0.5f, -1, 0};
-  const Rgb empty = at(renderer().draw(picture), 60, 60);
-  picture.instances = {box({1, 0.5f, 1}, {-0.8f, -1, 0}, kBlack)};
-  EXPECT_EQ(at(renderer().draw(picture), 60, 60).sum(), empty.sum());
-  picture.instances = {box({1, 0.1f, 1}, {0.3f, 1.5f, 0}, kBlack)};
-  EXPECT_LT(at(renderer().draw(picture), 60, 60).sum(), empty.sum() - 60);
-  picture.light.shadows = false;
-  EXPECT_EQ(at(renderer().draw(picture), 60, 60).sum(), empty.sum());
-}
-
-TEST(Renderer, BodiesShadeBodiesAndABodyAtRestIsNotShadedByItself) {
-  Picture picture = bare();
-  picture.camera.eye = {0, 6, 0.1f};
-  picture.light.direction = {0, -1, 0};
-  picture.instances = {box({2, 0.2f, 2}, {0, 0, 0}, {0.7f, 0.7f, 0.7f, 1})};
-  picture.light.shadows = false;
-  const Image unshaded = renderer().draw(picture);
-  picture.light.shadows = true;
-  EXPECT_EQ(unshaded, renderer().draw(picture));  // no acne
-  picture.light.direction = {1, -1, 0};
-  const Rgb before = at(renderer().draw(picture), 80, 60);
-  picture.instances.push_back(box({0.6f, 0.1f, 0.6f}, {-1, 1.1f, 0}, kRed));
-  EXPECT_LT(at(renderer().draw(picture), 80, 60).sum(), before.sum() - 60);
 }
 
 TEST(Renderer, LinesOnTopAreSeenThroughBodiesAndOthersAreNot) {
