@@ -55,7 +55,10 @@ bool isFirst(const Item& p, const Item& q) {
 void Pairs::add(BodyId body, const Shape& shape, bool movable) {
   require(body >= 0 && body >= static_cast<BodyId>(indexOf_.size()),
           "collider: bodies must be added once, with increasing ids");
-  Item item{body, movable, makeSolid(shape)};
+  Item item;
+  item.body = body;
+  item.movable = movable;
+  item.solid = makeSolid(shape);
   require(!movable || item.solid.kind != Kind::plane, "collider: a plane must not be movable");
   indexOf_.resize(static_cast<std::size_t>(body) + 1, -1);
   indexOf_[body] = static_cast<int>(items_.size());

@@ -15,11 +15,12 @@ namespace physics::collision {
 struct Item {
   BodyId body = 0;
   bool movable = false;
-  Solid solid;
-  Mat3 R = Mat3::Identity();  // at the start
-  Vec3 x = Vec3::Zero(), move = Vec3::Zero();
-  double turn = 0;    // the furthest that turning moves a point of the core [m]
   double travel = 0;  // length of the way of its points so far, at most [m]
+  double turn = 0;    // the furthest that turning moves a point of the core in this step [m]
+  Vec3 move = Vec3::Zero();
+  Vec3 x = Vec3::Zero();  // at the start
+  Mat3 R = Mat3::Identity();
+  Solid solid;  // last: what is before it is read for each pair
 };
 
 // Two items, and what is known of them since their last narrow phase.

@@ -21,6 +21,9 @@ struct Edge {
 
 struct Solid {
   Kind kind = Kind::point;
+  double size = 0;                    // bounding radius; 0 for point and plane
+  double coreRadius = 0;              // reach of the core from the origin
+  double thickness = 0;               // smallest full extent; 0 for point and plane
   double rounding = 0;                // radius around the core: sphere, capsule
   double radius = 0, halfLength = 0;  // of a cylinder or capsule, along y
   Vec3 half = Vec3::Zero();           // of a box
@@ -29,9 +32,6 @@ struct Solid {
   Vec3 normal = Vec3::UnitY();        // of a plane: normal . p <= offset is solid
   double offset = 0;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // bounds in the body frame; of a plane: none
-  double coreRadius = 0;                         // reach of the core from the origin
-  double size = 0;                               // bounding radius; 0 for point and plane
-  double thickness = 0;                          // smallest full extent; 0 for point and plane
 
   bool isPolyhedron() const { return kind == Kind::box || kind == Kind::convex; }
   bool isLine() const { return kind == Kind::capsule || kind == Kind::cylinder; }

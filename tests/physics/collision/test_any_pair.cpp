@@ -153,7 +153,8 @@ TEST_P(AnyPair, TurningTheSceneTurnsTheResult) {
   });
 }
 
-// Where two directions are equally good within the tolerance, b's facet is preferred: rare.
+// Where two directions are equally good within the tolerance, b's facet is preferred: rare. Of more
+// than four points others may be kept that are as deep within the tolerance.
 TEST_P(AnyPair, SwappingTheBodiesMirrorsTheNormal) {
   const Two& two = GetParam();
   int count = 0, same = 0;
@@ -167,7 +168,7 @@ TEST_P(AnyPair, SwappingTheBodiesMirrorsTheNormal) {
     ++count;
     if (!mirrored) return;
     ++same;
-    const double tolerance = 0.1 * directionTolerance(two) + 1e-9;
+    const double tolerance = m.count > 2 ? kFlat : 0.1 * directionTolerance(two) + 1e-9;
     EXPECT_NEAR(smallestGap(swapped[0], other), smallestGap(m, poses), tolerance);
   });
   EXPECT_GE(same, count * (searched(two) ? 90 : 97) / 100);
