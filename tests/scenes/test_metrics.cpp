@@ -1,0 +1,86 @@
+// Metrics mean what their table says, and verdicts follow from them.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "scenes/metrics.h"
+#include "tests/scenes/scene_text.h"
+
+namespace scenes {
+namespace {
+
+// A point that falls for one second from rest at y = 0, with this [[expect]].
+Checker::Verdict verdictOnFall(const std::string& expectation) {
+  const Scene scene = sceneOf(
+      "duration = 1\n[gravity]\nacceleration = [0, -10, 0]\n[[body]]\nname = "
+      "\"p\"\nshape = { sphere = { radius = 1 } }\nvelocity = [2, 0, 0]\n"
+      "[[expect]]\n" +
+      expectation);
+  Simulation simulation(scene);
+  Checker checker(scene);
+  checker.observe(simulation);
+  for (int i = 1; i < scene.frameCount(); ++i) {
+    simulation.advance();
+    checker.observe(simulation);
+  }
+  return checker.verdicts().at(0);
+}
+
+TEST(Metric, DriftIsTheHorizontalDistanceFromTheStart) {
+  EXPECT_NEAR(verdictOnFall("metric = \"drift\"\nbody = \"p\"\nat_most = 3\n").value, 2, 1e-9);
+}
+
+TEST(Metric, DropIsTheWayDown) {
+  // first order in the substep of 1/240 s
+  EXPECT_NEAR(verdictOnFall("metric = \"drop\"\nbody = \"p\"\nat_most = 9\n").value, 5, 0.03);
+}
+
+TEST(Metric, HeightIsLeastForAtLeast) {
+  const auto verdict = verdictOnFall("metric = \"height\"\nbody = \"p\"\nat_least = -1\n");
+  EXPECT_FALSE(verdict.holds);
+  EXPECT_NEAR(verdict.value, -5, 0.03);
+  EXPECT_NEAR(verdict.atTime, 1, 1e-9);
+}
+
+TEST(Metric, LooksOnlyAtItsSpan) {
+  EXPECT_TRUE(verdictOnFall("metric = \"height\"\nbody = \"p\"\nat_least = -1\nto = 0.4\n").holds);
+}
+
+TEST(Metric, FiniteNeedsNoBound) { EXPECT_TRUE(verdictOnFall("metric = \"finite\"\n").holds); }
+
+TEST(Metric, TellsValueAndBoundInItsText) {
+  EXPECT_EQ(verdictOnFall("metric = \"drift\"\nbody = \"p\"\nat_most = 3\n").text,
+            "drift of p 2 m <= 3 m");
+  EXPECT_EQ(verdictOnFall("metric = \"drift\"\nbody = \"p\"\nat_most = 1\n").text,
+            "drift of p 2 m, expected <= 1 m");
+}
+
+TEST(Metric, TiltOfABodyThatTurnsAboutZIsItsAngle) {
+  const Scene scene = sceneOf(
+      "duration = 0.5\n[[body]]\nname = \"p\"\nshape = { sphere = { radius = 1 "
+      "} }\nangular_velocity = [0, 0, 1]\n[[expect]]\nmetric = \"tilt\"\nbody = "
+      "\"p\"\nat_most = 1\n");
+  Simulation simulation(scene);
+  Checker checker(scene);
+  for (int i = 0; i < scene.frameCount(); ++i) {
+    checker.observe(simulation);
+    simulation.advance();
+  }
+  EXPECT_NEAR(checker.verdicts()[0].value, 0.5 * 180 / M_PI, 1e-9);
+}
+
+TEST(Metric, NamesAreUnique) {
+  const std::vector<std::string> names = metricNames();
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+}
+
+TEST(Pattern, MatchesWithStars) {
+  EXPECT_TRUE(matches("stack.*", "stack.12"));
+  EXPECT_TRUE(matches("*.head", "doll.3.head"));
+  EXPECT_TRUE(matches("*", "anything"));
+  EXPECT_FALSE(matches("stack.*", "stick.1"));
+  EXPECT_FALSE(matches("stack", "stack.1"));
+}
+
+}  // namespace
+}  // namespace scenes
