@@ -49,6 +49,8 @@ struct Random {
   Pose pose(double furthest) { return {furthest * number(0, 1) * direction(), rotation()}; }
 };
 
+long allocationCount();  // of the whole program so far
+
 Quat turned(const Vec3& axis, double degrees);
 
 }  // namespace physics::testing

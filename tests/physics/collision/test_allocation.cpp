@@ -1,31 +1,7 @@
 // A settled scene is detected without allocating.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "tests/physics/collision/scene_of_two.h"
-
-namespace {
-long allocations = 0;
-
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  size = (size + alignment - 1) / alignment * alignment;
-  void* memory = std::aligned_alloc(alignment, size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace physics {
 namespace {
@@ -55,9 +31,9 @@ Heap heap() {
 TEST(Allocation, NoneForBodiesAtRest) {
   Heap scene = heap();
   scene.collider.find(scene.poses, scene.poses, 0.02);
-  const long before = allocations;
+  const long before = allocationCount();
   const std::size_t found = scene.collider.find(scene.poses, scene.poses, 0.02).size();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocationCount(), before);
   EXPECT_GT(found, 100u);
 }
 
@@ -69,11 +45,11 @@ TEST(Allocation, NoneForBodiesThatGoOnMoving) {  // there and back, out of their
   for (int i = 0; i < 6; ++i) {
     scene.collider.find(i % 2 ? other : scene.poses, i % 2 ? scene.poses : other, 0.02);
   }
-  const long before = allocations;
+  const long before = allocationCount();
   for (int i = 0; i < 6; ++i) {
     scene.collider.find(i % 2 ? other : scene.poses, i % 2 ? scene.poses : other, 0.02);
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocationCount(), before);
 }
 
 }  // namespace
