@@ -33,18 +33,18 @@ void findContactsAhead(World::Impl& w, double remaining) {
   findContacts(w, w.ahead);
 }
 
-void iterate(World::Impl& w, double h, StepReport& report) {
+void solveOnce(World::Impl& w, double h, StepReport& report) {
   w.settings.method == Method::kDirect ? direct(w, h, report) : nonlinearGaussSeidel(w, h, report);
 }
 
 void solveConstraints(World::Impl& w, double h, StepReport& report) {
-  iterate(w, h, report);
+  solveOnce(w, h, report);
   // A body that was hit may have left the bounds in which contacts were looked for: look where it
   // went.
   for (int look = 1; look < kMostLooks && !report.notFinite && contactsOutdated(w); ++look) {
     findContacts(w, w.bodies.pose);
     for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
-    iterate(w, h, report);
+    solveOnce(w, h, report);
   }
 }
 

@@ -36,7 +36,9 @@ struct ContactSettings {
 struct Settings {
   double dt = 1.0 / 60;  // one step() [s]
   int substeps = 4;
-  int iterations = 2;  // sweeps over all constraints per substep
+  int iterations = 1;       // sweeps over all constraints per substep, at least
+  int maxIterations = 40;   // and at the most, while contacts still move by more than
+  double tolerance = 2e-7;  // this in a sweep [m]
   Method method = Method::kNonlinearGaussSeidel;
   Stepping stepping = Stepping::kPaper;
   double relaxation = 1;      // xi (53)
@@ -53,6 +55,7 @@ struct StepReport {
   int substeps = 0;
   int iterations = 0;  // sweeps in all
   std::int64_t constraintEvaluations = 0;
+  double residual = 0;  // largest contact error that the last sweep met [m]
   struct NotFinite {
     int substep = 0;
     BodyId body = -1;

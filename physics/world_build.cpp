@@ -14,6 +14,7 @@ void checkSettings(const Settings& s) {
   require(std::isfinite(s.dt) && s.dt > 0, "dt must be a positive number of seconds");
   require(s.substeps >= 1, "substeps must be at least 1");
   require(s.iterations >= 1, "iterations must be at least 1");
+  require(s.maxIterations >= 0 && s.tolerance >= 0, "iterations and tolerance must be >= 0");
   require(s.relaxation > 0 && s.relaxation < 2, "relaxation must lie between 0 and 2");
   require(s.regularisation >= 0 && std::isfinite(s.regularisation), "regularisation must be >= 0");
   require(!s.gravity || finite(*s.gravity), "gravity must be finite");

@@ -5,6 +5,7 @@
 #include "physics/constraints/contact.h"
 #include "physics/effects/free_motion.h"
 #include "physics/kinds.h"
+#include "physics/methods/conjugate.h"
 #include "physics/methods/joint_system.h"
 #include "physics/world.h"
 
@@ -18,7 +19,8 @@ struct World::Impl {
   Kinds kinds;
   Collider collider;
   Contacts contacts;
-  JointSystem joints;  // this and its scratch: the direct method only
+  Conjugate conjugate;  // scratch of the sweeps
+  JointSystem joints;   // this and its scratch: the direct method only
   std::vector<JointRows> jointRows;
   std::vector<Vec3> jointChange;
   std::vector<JointMotion> jointMotion;

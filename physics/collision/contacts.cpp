@@ -15,11 +15,6 @@ std::uint32_t facetFeature(Owner owner, int index, std::uint32_t id) {
          (static_cast<std::uint32_t>(index) & 0xfff) << 17 | id;
 }
 
-// Twice the area of the triangle p q r seen along n, with sign.
-double area(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& n) {
-  return n.dot((q - p).cross(r - p));
-}
-
 // Chosen points so far; `take` moves candidate i into the choice.
 struct Choice {
   std::array<int, Manifold::kMaxPoints> index{};
@@ -30,45 +25,51 @@ struct Choice {
   }
 };
 
-// The candidate of `among` with the largest score above `least`; the earlier one within `tie`.
-template <typename Score>
-int best(const Contacts& c, double keep, double tie, double least, const Choice& chosen,
-         const Score& score) {
-  int winner = -1;
-  double most = least;
-  for (int i = 0; i < c.count; ++i) {
-    if (!(c.points[i].gap <= keep) || chosen.has(i)) continue;
-    const double value = score(c.points[i]);
-    if (value > most + (winner < 0 ? 0 : tie)) {
-      winner = i;
-      most = value;
+Vec3 tangentTo(const Vec3& n) {
+  int smallest = 0;
+  n.cwiseAbs().minCoeff(&smallest);
+  return n.cross(Vec3::Unit(smallest)).normalized();
+}
+
+// The furthest candidates along the four diagonals of the plane of touch: the corners of an upright face.
+// They do not depend on the gaps, so that the choice stays while a body settles.
+Choice spread(const Contacts& c, double keep, double tie) {
+  const Vec3 t1 = tangentTo(c.n), t2 = c.n.cross(t1);
+  Choice chosen;
+  for (const Vec3& d : {Vec3(t1 + t2), Vec3(t1 - t2), Vec3(-t1 - t2), Vec3(t2 - t1)}) {
+    int winner = -1;
+    double most = 0;
+    for (int i = 0; i < c.count; ++i) {
+      if (!(c.points[i].gap <= keep)) continue;
+      const double value = c.points[i].onA.dot(d);
+      if (winner < 0 || value > most + tie) winner = i, most = value;
     }
+    if (winner >= 0 && !chosen.has(winner)) chosen.take(winner);
   }
-  return winner;
+  return chosen;
+}
+
+// The deepest candidate takes the place of the chosen point nearest to it, where it is clearly deeper.
+void insistOnDeepest(const Contacts& c, double clearly, Choice& chosen) {
+  int deepest = 0;
+  for (int i = 1; i < c.count; ++i) {
+    if (c.points[i].gap < c.points[deepest].gap) deepest = i;
+  }
+  if (chosen.count == 0 || chosen.has(deepest)) return;
+  int nearest = 0;
+  double best = std::numeric_limits<double>::infinity(), lowest = best;
+  for (int k = 0; k < chosen.count; ++k) {
+    const Candidate& point = c.points[chosen.index[k]];
+    const double distance = (point.onA - c.points[deepest].onA).squaredNorm();
+    if (distance < best) best = distance, nearest = k;
+    lowest = std::min(lowest, point.gap);
+  }
+  if (c.points[deepest].gap < lowest - clearly) chosen.index[nearest] = deepest;
 }
 
 Choice choose(const Contacts& c, double keep, double tie) {
-  Choice chosen;
-  const double lowest = -std::numeric_limits<double>::infinity();
-  const auto at = [&](int k) -> const Vec3& { return c.points[chosen.index[k]].onA; };
-  const auto take = [&](double least, double slack, const auto& score) {
-    const int i = best(c, keep, slack, least, chosen, score);
-    if (i >= 0) chosen.take(i);
-    return i >= 0;
-  };
-  if (!take(lowest, tie, [](const Candidate& p) { return -p.gap; })) return chosen;
-  if (!take(tie, tie, [&](const Candidate& p) { return (p.onA - at(0)).norm(); })) return chosen;
-  const double width = (at(1) - at(0)).norm();
-  const double thin = tie * width;
-  if (!take(thin, thin,
-            [&](const Candidate& p) { return std::abs(area(at(0), at(1), p.onA, c.n)); }))
-    return chosen;
-  // Counter-clockwise, the fourth adds most area beyond one of the three sides.
-  if (area(at(0), at(1), at(2), c.n) < 0) std::swap(chosen.index[1], chosen.index[2]);
-  take(thin, thin, [&](const Candidate& p) {
-    return std::max({-area(at(0), at(1), p.onA, c.n), -area(at(1), at(2), p.onA, c.n),
-                     -area(at(2), at(0), p.onA, c.n)});
-  });
+  Choice chosen = spread(c, keep, tie);
+  insistOnDeepest(c, 10 * tie, chosen);
   return chosen;
 }
 

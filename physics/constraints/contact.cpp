@@ -2,6 +2,7 @@
 #include "physics/constraints/contact.h"
 
 #include <cmath>
+#include <limits>
 #include <variant>
 
 namespace physics {
@@ -18,15 +19,37 @@ bool isBall(const Shape& shape) {
 
 double geometricMean(double a, double b) { return std::sqrt(a * b); }
 
+// The old point that a fresh one goes on from: the same feature, else the nearest on body a that no
+// fresh point has the feature of. Clipped corners change their names when faces slide past each
+// other.
+int ancestorOf(const ContactPair& old, const ContactPair& fresh, int k, unsigned taken) {
+  for (int m = 0; m < old.count; ++m) {
+    if (old.points[m].shape.feature == fresh.points[k].shape.feature) return m;
+  }
+  int nearest = -1;
+  double best = std::numeric_limits<double>::infinity();
+  for (int m = 0; m < old.count; ++m) {
+    if (taken & (1u << m)) continue;
+    const double distance = (old.points[m].shape.coreA - fresh.points[k].shape.coreA).squaredNorm();
+    if (distance < best) best = distance, nearest = m;
+  }
+  return nearest;
+}
+
 void keepState(const ContactPair& old, ContactPair& fresh) {
+  unsigned taken = 0;  // bit m: old point m goes on somewhere
   for (int k = 0; k < fresh.count; ++k) {
     for (int m = 0; m < old.count; ++m) {
-      if (old.points[m].shape.feature != fresh.points[k].shape.feature) continue;
-      const ContactPoint shape = fresh.points[k].shape;
-      fresh.points[k] = old.points[m];
-      fresh.points[k].shape = shape;
-      break;
+      if (old.points[m].shape.feature == fresh.points[k].shape.feature) taken |= 1u << m;
     }
+  }
+  for (int k = 0; k < fresh.count; ++k) {
+    const int m = ancestorOf(old, fresh, k, taken);
+    if (m < 0) continue;
+    taken |= 1u << m;
+    const ContactPoint shape = fresh.points[k].shape;
+    fresh.points[k] = old.points[m];
+    fresh.points[k].shape = shape;
   }
 }
 

@@ -26,12 +26,15 @@ struct ContactPointState {
   Vec3 slip = Vec3::Zero();           // m, world
   Vec3 frictionTotal = Vec3::Zero();  // accumulated, on a, world, times h^2
   double normalTotal = 0;             // accumulated, on a along n, times h^2
-  double normalBefore = 0;            // what it was a substep earlier
   Vec3 frictionOnce = Vec3::Zero();   // the same of what stood wrong at the start: slip, and
   double normalOnce = 0;              // overlap; these move bodies without speeding them
   double gapAtStart = 0;              // c at the start of the substep [m]
   double approach = 0;  // normal velocity at the start of the substep [m/s], negative: closing
+  Vec3 normal = Vec3::UnitY();  // world, of this substep
+  Vec3 extra = Vec3::Zero();    // impulse that push() applies, times h^2
+  double resistance = 0;        // A of the normal row
   bool sticking = false;
+  bool loaded = false;  // it starts the substep with an impulse
 };
 
 struct ContactPair {
@@ -59,9 +62,12 @@ void measureStart(ContactPair& pair, const Bodies& bodies);
 // Start of a substep: the same, slips, and with `warm` the last multipliers are applied.
 void prepare(ContactPair& pair, Bodies& bodies, bool warm);
 
+// Applies every point's `extra`.
+void push(const ContactPair& pair, Bodies& bodies);
+
 // One visit. `allowance` [m] is how much overlap that existed at the start may be resolved in this
 // substep. Returns false when a change is not finite.
-bool solve(ContactPair& pair, Bodies& bodies, double xi, double allowance);
+double solve(ContactPair& pair, Bodies& bodies, double xi, double allowance, bool backward);
 
 // Present normal [world], and gap of point k at the poses.
 Vec3 normalOf(const ContactPair& pair, std::span<const Pose> pose);

@@ -27,7 +27,9 @@ struct Visit {
   std::array<double, Manifold::kMaxPoints> gap;
 };
 
-constexpr double kNoError = 1e-10;  // m; overlaps below this are rounding
+// Where a loaded contact is left alone: it neither falls through a gap nor is pushed out of an
+// overlap smaller than this. Errors that small are not worth setting a body in motion.
+constexpr double kTouching = 1e-4;  // m
 
 Visit beginVisit(const ContactPair& pair, const Bodies& bodies) {
   Visit visit;
@@ -54,8 +56,8 @@ bool evaluateGaps(const ContactPair& pair, const Bodies& bodies, Visit& visit) {
     const Vec3 matter = visit.rotationB * (pair.radial ? p.shape.coreB : p.anchorB);
     const double offset = pair.radial ? -p.shape.radiusB : p.gapAtStart;
     visit.gap[k] = (visit.armB[k] - matter).dot(visit.n) + offset;
-    visit.corrects = visit.corrects || p.gapAtStart < -kNoError;
-    active = active || visit.gap[k] < 0 || p.normalTotal > 0;
+    visit.corrects = visit.corrects || p.gapAtStart < -kTouching || !p.slip.isZero(0);
+    active = active || visit.gap[k] < 0 || p.normalTotal != 0;
   }
   return active;
 }
@@ -98,15 +100,15 @@ void solveNormal(ContactPointState& p, double gap, const Direction& row, double 
                  double allowance, Visit& visit) {
   if (!(row.resistance > 1e-300)) return;
   double c = gap + moved(visit, row, visit.lasting);
+  if (p.gapAtStart < 0 || (p.loaded && p.gapAtStart < kTouching)) c -= p.gapAtStart;
   if (visit.corrects) {
     const double already = corrected(visit, row);
-    const double standing = std::clamp(p.gapAtStart, -allowance, 0.0) + already;
-    const double error = (p.gapAtStart > 0 ? p.gapAtStart : 0) + standing;
-    const double next =
-        std::max(p.normalOnce - xi * (error + moved(visit, row, visit.once)) / row.resistance, 0.0);
+    const double error =
+        std::max(p.gapAtStart + kTouching, -allowance) + already + moved(visit, row, visit.once);
+    const double next = std::max(p.normalOnce - xi * error / row.resistance, 0.0);
     add(visit.once, row, next - p.normalOnce);
     p.normalOnce = next;
-    c -= std::min(p.gapAtStart, 0.0) + already;
+    c -= already;
   }
   const double next = std::max(p.normalTotal - xi * c / row.resistance, 0.0);
   add(visit.lasting, row, next - p.normalTotal);
@@ -151,7 +153,7 @@ void solveFriction(const ContactPair& pair, ContactPointState& p, int k, const B
   const Vec3 dp = visit.armB[k] - visit.armA[k] + onA - visit.rotationB * p.anchorB;
   double c1 = dp.dot(visit.t1) + moved(visit, rows.r1, visit.lasting);
   double c2 = dp.dot(visit.t2) + moved(visit, rows.r2, visit.lasting);
-  if (visit.corrects || !p.slip.isZero(0)) {
+  if (visit.corrects) {
     const double done1 = corrected(visit, rows.r1), done2 = corrected(visit, rows.r2);
     solveTangent(rows, p.slip.dot(visit.t1) + done1 + moved(visit, rows.r1, visit.once),
                  p.slip.dot(visit.t2) + done2 + moved(visit, rows.r2, visit.once), pair.friction,
@@ -203,6 +205,7 @@ void measureStart(ContactPair& pair, const Bodies& bodies) {
     const Vec3 armB = armA + a.x - b.x;
     p.anchorA = p.shape.radiusA == 0 ? p.shape.coreA : Vec3(rotationA.transpose() * armA);
     p.anchorB = rotationB.transpose() * armB;
+    p.normal = n;
     p.gapAtStart = (armB - rotationB * p.shape.coreB).dot(n) - p.shape.radiusB;
     p.approach = n.dot(va.v + va.w.cross(armA) - vb.v - vb.w.cross(armB));
   }
@@ -213,23 +216,27 @@ void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
   const Vec3 n = normalOf(pair, bodies.start);
   for (int k = 0; k < pair.count; ++k) pair.points[k].slip = slipLeft(pair.points[k], n, a, b);
   measureStart(pair, bodies);
-  Push push;
   for (int k = 0; k < pair.count; ++k) {
     ContactPointState& p = pair.points[k];
-    // The smaller of the last two: an impact is over after one substep and must not be guessed
-    // again.
-    const double first = warm ? std::min(p.normalTotal, p.normalBefore) : 0;
-    const double share = p.normalTotal > 0 ? first / p.normalTotal : 0;
-    p.normalBefore = p.normalTotal;
-    p.normalTotal = first;
-    p.frictionTotal = share * (p.frictionTotal - p.frictionTotal.dot(n) * n);
+    if (!warm) p.normalTotal = 0;
+    p.loaded = p.normalTotal > 0;
+    p.frictionTotal = warm ? Vec3(p.frictionTotal - p.frictionTotal.dot(n) * n) : Vec3::Zero();
     p.normalOnce = 0;
     p.frictionOnce.setZero();
-    const Vec3 onA = p.normalTotal * n + p.frictionTotal;
+    p.extra = p.normalTotal * n + p.frictionTotal;
+  }
+  push(pair, bodies);
+}
+
+void push(const ContactPair& pair, Bodies& bodies) {
+  const Pose &a = bodies.start[pair.a], &b = bodies.start[pair.b];
+  Push push;
+  for (int k = 0; k < pair.count; ++k) {
+    const ContactPointState& p = pair.points[k];
     const Vec3 armA = a.q * p.anchorA;
-    push.impulse += onA;
-    push.turnA += armA.cross(onA);
-    push.turnB += (armA + a.x - b.x).cross(onA);
+    push.impulse += p.extra;
+    push.turnA += armA.cross(p.extra);
+    push.turnB += (armA + a.x - b.x).cross(p.extra);
   }
   if (push.impulse.isZero(0)) return;
   push.turnA = bodies.inverse[pair.a].inertia * push.turnA;
@@ -237,29 +244,49 @@ void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
   displacePair(pair, push, {}, false, bodies);
 }
 
-bool solve(ContactPair& pair, Bodies& bodies, double xi, double allowance) {
-  Visit visit = beginVisit(pair, bodies);
-  if (!evaluateGaps(pair, bodies, visit)) return true;
-  for (int k = 0; k < pair.count; ++k) {
+namespace {
+
+double solveNormals(ContactPair& pair, Bodies& bodies, double xi, double allowance, bool backward,
+                    Visit& visit) {
+  double largest = 0;
+  for (int i = 0; i < pair.count; ++i) {
+    const int k = backward ? pair.count - 1 - i : i;
+    ContactPointState& p = pair.points[k];
     const Direction row = directionAt(visit, k, visit.n, bodies, pair);
-    solveNormal(pair.points[k], visit.gap[k], row, xi, allowance, visit);
+    p.resistance = row.resistance;
+    const double before = p.normalTotal;
+    solveNormal(p, visit.gap[k], row, xi, allowance, visit);
+    largest = std::max(largest, std::abs(p.normalTotal - before) * row.resistance);
   }
-  if (pair.friction.staticCoefficient > 0) {
-    visit.t1 = anyNormalTo(visit.n);
-    visit.t2 = visit.n.cross(visit.t1);
-    for (int k = 0; k < pair.count; ++k) {
-      ContactPointState& p = pair.points[k];
-      if (p.normalTotal > 0 || !p.frictionTotal.isZero(0)) {
-        solveFriction(pair, p, k, bodies, xi, visit);
-      }
-    }
+  return largest;
+}
+
+void solveFrictions(ContactPair& pair, Bodies& bodies, double xi, bool backward, Visit& visit) {
+  if (pair.friction.staticCoefficient == 0) return;
+  visit.t1 = anyNormalTo(visit.n);
+  visit.t2 = visit.n.cross(visit.t1);
+  for (int i = 0; i < pair.count; ++i) {
+    const int k = backward ? pair.count - 1 - i : i;
+    ContactPointState& p = pair.points[k];
+    if (p.normalTotal > 0 || !p.frictionTotal.isZero(0))
+      solveFriction(pair, p, k, bodies, xi, visit);
   }
+}
+
+}  // namespace
+
+double solve(ContactPair& pair, Bodies& bodies, double xi, double allowance, bool backward) {
+  Visit visit = beginVisit(pair, bodies);
+  if (!evaluateGaps(pair, bodies, visit)) return 0;
+  if (backward) solveFrictions(pair, bodies, xi, backward, visit);
+  const double largest = solveNormals(pair, bodies, xi, allowance, backward, visit);
+  if (!backward) solveFrictions(pair, bodies, xi, backward, visit);
   const Push &lasting = visit.lasting, &once = visit.once;
   const double sum = lasting.impulse.sum() + lasting.turnA.sum() + lasting.turnB.sum() +
                      once.impulse.sum() + once.turnA.sum() + once.turnB.sum();
-  if (!std::isfinite(sum)) return false;
+  if (!std::isfinite(sum)) return sum - sum;
   displacePair(pair, lasting, once, visit.corrects, bodies);
-  return true;
+  return largest;
 }
 
 }  // namespace physics

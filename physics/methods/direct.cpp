@@ -177,16 +177,12 @@ void prepareDirect(World::Impl& world) {
 }
 
 void direct(World::Impl& world, double dt, StepReport& report) {
-  for (int k = 0; k < world.settings.iterations; ++k) {
-    if (k > 0) refreshInertia(world.bodies);
-    if (!newtonStep(world, dt)) {
-      report.notFinite = {report.substeps, world.jointRows.front().bodies[1], "joints together"};
-      return;
-    }
+  iterate(world, dt, report, [&] {
     report.constraintEvaluations += static_cast<std::int64_t>(world.jointRows.size());
-    if (!sweep(world, dt, report)) return;
-    ++report.iterations;
-  }
+    if (newtonStep(world, dt)) return true;
+    report.notFinite = {report.substeps, world.jointRows.front().bodies[1], "joints together"};
+    return false;
+  });
 }
 
 }  // namespace physics

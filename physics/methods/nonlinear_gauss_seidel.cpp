@@ -23,17 +23,38 @@ bool sweepKind(K& kind, Bodies& bodies, double dt, bool joints, StepReport& repo
   return true;
 }
 
-bool sweepContacts(World::Impl& world, double dt, StepReport& report) {
+bool sweepContacts(World::Impl& world, double dt, bool backward, StepReport& report) {
+  report.residual = 0;
   if (!world.settings.contact) return true;
   const double allowance = world.settings.contact->maxSeparationSpeed * dt;
   auto& pairs = world.contacts.pairs;
   report.constraintEvaluations += static_cast<std::int64_t>(pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (solve(pairs[k], world.bodies, world.settings.relaxation, allowance)) continue;
-    nameCulprit(report, "contact", k, pairs[k].a);
-    return false;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::size_t k = backward ? pairs.size() - 1 - i : i;
+    const double error =
+        solve(pairs[k], world.bodies, world.settings.relaxation, allowance, backward);
+    if (!std::isfinite(error)) {
+      nameCulprit(report, "contact", k, pairs[k].a);
+      return false;
+    }
+    report.residual = std::max(report.residual, error);
   }
   return true;
+}
+
+// How long to go on. The first substep has no multipliers to start from: it may settle for long,
+// once.
+struct Patience {
+  int least, most;
+  double tolerance;
+};
+
+Patience patience(const World::Impl& world, const StepReport& report) {
+  const Settings& s = world.settings;
+  if (world.stepCount == 0 && report.substeps == 0) {
+    return {s.iterations, std::max(s.iterations, 1500), 1e-4 * s.tolerance};
+  }
+  return {s.iterations, s.maxIterations, s.tolerance};
 }
 
 }  // namespace
@@ -44,29 +65,41 @@ void prepareConstraints(World::Impl& world, double dt) {
     auto& set = kind.set;
     for (std::size_t k = 0; k < set.items.size(); ++k) {
       if (isDirect(world) && isEquality(set.items[k]))
-        continue;  // starts from its last multipliers
+        continue;  // goes on from its last multipliers
       prepare(set.items[k], set.lambda[k], warm, set.tuned[k].split, world.bodies, dt);
     }
   });
-  for (ContactPair& pair : world.contacts.pairs)
+  for (ContactPair& pair : world.contacts.pairs) {
     prepare(pair, world.bodies, world.settings.warmStart);
+  }
 }
 
-bool sweep(World::Impl& world, double dt, StepReport& report) {
+bool sweep(World::Impl& world, double dt, bool backward, StepReport& report) {
   const bool joints = !isDirect(world);
   bool finite = true;
   forEachKind(world.kinds, [&](auto& kind) {
     finite = finite && sweepKind(kind, world.bodies, dt, joints, report);
   });
-  return finite && sweepContacts(world, dt, report);
+  return finite && sweepContacts(world, dt, backward, report);
+}
+
+void iterate(World::Impl& world, double dt, StepReport& report,
+             const std::function<bool()>& beforeSweep) {
+  const Patience limit = patience(world, report);
+  for (int k = 0; k < limit.least || (k < limit.most && report.residual > limit.tolerance); ++k) {
+    const int extra =
+        k - limit.least;  // beyond the least: forwards and backwards in turn, accelerated
+    if (extra == 0) world.conjugate.begin(world.contacts);
+    if (extra > 0 && extra % 2 == 0) world.conjugate.accelerate(world.contacts, world.bodies);
+    if (k > 0) refreshInertia(world.bodies);
+    if (beforeSweep && !beforeSweep()) return;
+    if (!sweep(world, dt, extra > 0 && extra % 2 == 1, report)) return;
+    ++report.iterations;
+  }
 }
 
 void nonlinearGaussSeidel(World::Impl& world, double dt, StepReport& report) {
-  for (int k = 0; k < world.settings.iterations; ++k) {
-    if (k > 0) refreshInertia(world.bodies);
-    if (!sweep(world, dt, report)) return;
-    ++report.iterations;
-  }
+  iterate(world, dt, report, {});
 }
 
 }  // namespace physics

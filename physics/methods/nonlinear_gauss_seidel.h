@@ -2,6 +2,8 @@
 // displacement.
 #pragma once
 
+#include <functional>
+
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -11,10 +13,14 @@ void prepareConstraints(World::Impl& world, double dt);
 
 // One sweep over everything; equalities are left out where the direct method solves them.
 // False: some change was not finite, and report.notFinite names it.
-bool sweep(World::Impl& world, double dt, StepReport& report);
+bool sweep(World::Impl& world, double dt, bool backward, StepReport& report);
 
-// Sweeps `settings.iterations` times. On the first change that is not finite the sweep stops, and
-// report.notFinite names it.
+// Sweeps settings.iterations times, and on while contacts move by more than settings.tolerance in a
+// sweep, settings.maxIterations at the most. `beforeSweep`, where given, may end it by returning
+// false.
+void iterate(World::Impl& world, double dt, StepReport& report,
+             const std::function<bool()>& beforeSweep);
+
 void nonlinearGaussSeidel(World::Impl& world, double dt, StepReport& report);
 
 }  // namespace physics
