@@ -26,7 +26,8 @@ std::string verdictTable(const scenes::Scene& scene,
   for (const scenes::Checker::Verdict& verdict : verdicts) {
     table +=
         fmt::format("{:<5} {:<18} {}", verdict.holds ? "ok" : "FAIL", scene.name, verdict.text);
-    table += fmt::format("  (at {:.4g} s; {}:{})\n", verdict.atTime, scene.path,
+    table += fmt::format("  (at {:.4g} s; {}:{})\n", verdict.atTime,
+                         std::filesystem::path(scene.path).filename().string(),
                          verdict.expectation.line);
   }
   if (verdicts.empty()) table = fmt::format("none  {:<18} states no expectation\n", scene.name);

@@ -115,7 +115,7 @@ void updateScene(const GoldenOptions& options, const std::string& name) {
     const bool samePixels = image == now.image;
     const std::string moved = movedLayer(findHashes(before, now.frame), now, samePixels);
     say(fmt::format("{} {:05}: {}\n", scene.name, now.frame,
-                    !image          ? "new"
+                    !exists(image)  ? "new"
                     : moved.empty() ? "unchanged"
                                     : moved));
     changed = changed || !moved.empty();

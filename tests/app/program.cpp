@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kDrop = R"(title = "A ball falls"
-duration = 0.3333333333
+duration = 0.316666667
 [simulation]
 fps = 60
 [gravity]
