@@ -31,8 +31,8 @@ Vec3 tangentTo(const Vec3& n) {
   return n.cross(Vec3::Unit(smallest)).normalized();
 }
 
-// The furthest candidates along the four diagonals of the plane of touch: the corners of an upright face.
-// They do not depend on the gaps, so that the choice stays while a body settles.
+// The furthest candidates along the four diagonals of the plane of touch: the corners of an upright
+// face. They do not depend on the gaps, so that the choice stays while a body settles.
 Choice spread(const Contacts& c, double keep, double tie) {
   const Vec3 t1 = tangentTo(c.n), t2 = c.n.cross(t1);
   Choice chosen;
@@ -49,7 +49,8 @@ Choice spread(const Contacts& c, double keep, double tie) {
   return chosen;
 }
 
-// The deepest candidate takes the place of the chosen point nearest to it, where it is clearly deeper.
+// The deepest candidate takes the place of the chosen point nearest to it, where it is clearly
+// deeper.
 void insistOnDeepest(const Contacts& c, double clearly, Choice& chosen) {
   int deepest = 0;
   for (int i = 1; i < c.count; ++i) {

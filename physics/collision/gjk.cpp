@@ -1,5 +1,5 @@
-// Distance between two convex cores. fcl::distance (libccd) takes as long, but stops up to 2e-4 m off on cylinders
-// of 0.5 m (measured, 3,200 poses; this one 1e-9) and allocates.
+// Distance between two convex cores. fcl::distance (libccd) takes as long, but stops up to 2e-4 m
+// off on cylinders of 0.5 m (measured, 3,200 poses; this one 1e-9) and allocates.
 #include "physics/collision/gjk.h"
 
 #include <algorithm>
