@@ -9,6 +9,7 @@
 #include "physics/make/stack.h"
 #include "physics/make/stage.h"
 #include "physics/world.h"
+#include "tests/scenes/field_changer.h"
 #include "tests/scenes/field_text.h"
 
 namespace scenes {

@@ -37,6 +37,10 @@ TEST(Override, TakesABareWordForAString) {
   EXPECT_EQ(sceneOf("", {"simulation.method=direct"}).settings.method, physics::Method::kDirect);
 }
 
+TEST(Override, MayShortenASceneBelowItsGoldenFrames) {
+  EXPECT_EQ(errorOf("duration = 9\n[golden]\nframes = [500]\n", {"duration=1"}), "no error");
+}
+
 TEST(Override, ThatIsOutOfRangeIsCited) {
   EXPECT_EQ(errorOf("", {"simulation.fps=0"}),
             "--set simulation.fps=0: simulation.fps: expected an integer in [1, 1000000], got 0");

@@ -85,7 +85,7 @@ TEST(Ragdoll, NamesTheNearestBoneForAnUnknownOne) {
 TEST(Ragdoll, RefusesPosesOutOfOrder) {
   EXPECT_EQ(errorOf(kDriven + "poses = [{ time = 1, pose = \"stand\" }, { time = 0, pose = "
                               "\"stand\" }]\n"),
-            "test.toml:3:50: ragdoll.poses.time: expected times that increase, got 0 after 1");
+            "test.toml:3:49: ragdoll.poses.time: expected times that increase, got 0 after 1");
 }
 
 }  // namespace
