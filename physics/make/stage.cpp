@@ -6,14 +6,28 @@
 namespace physics {
 namespace {
 
-BodyId addFixed(World& world, const Box& box, const Pose& pose,
+BodyId addFixed(World& world, const Shape& shape, const Pose& pose,
                 const std::optional<Friction>& friction) {
   BodyDef body;
-  body.shape = box;
+  body.shape = shape;
   body.pose = pose;
   body.motion = Motion::kStatic;
   body.friction = friction;
   return world.add(body);
+}
+
+// A prism with the bowl's outline, its upper face at the foot of the walls.
+BodyId addFloor(World& world, const BowlDef& def) {
+  const double corner = def.radius / std::cos(M_PI / def.sides);
+  std::vector<Vec3> points;
+  for (int i = 0; i < def.sides; ++i) {
+    const double angle = (2 * i + 1) * M_PI / def.sides;
+    for (const double y : {0.0, def.thickness}) {
+      points.emplace_back(corner * std::cos(angle), y, corner * std::sin(angle));
+    }
+  }
+  const PrincipalHull hull = makeHull(points);
+  return addFixed(world, Convex{hull.hull}, def.place(hull.toPoints), def.friction);
 }
 
 }  // namespace
@@ -23,11 +37,7 @@ std::vector<BodyId> add(World& world, const BowlDef& def) {
   const double along = def.height / sine;                      // m, up a wall
   const double rim = def.radius + def.height * cosine / sine;  // m, from the middle to a wall's top
   const double side = 2 * rim * std::tan(M_PI / def.sides);    // m, a wall's width at its top
-  std::vector<BodyId> ids;
-  const double floor = 2 * def.radius / std::cos(M_PI / def.sides);
-  ids.push_back(addFixed(world, Box{Vec3(floor, def.thickness, floor)},
-                         def.place({Vec3(0, 0.5 * def.thickness, 0), Quat::Identity()}),
-                         def.friction));
+  std::vector<BodyId> ids{addFloor(world, def)};
   for (int i = 0; i < def.sides; ++i) {
     // Local axes of a wall at angle 0: y up along it, x its outer normal, z across.
     const Quat turn(Eigen::AngleAxisd(2 * M_PI * i / def.sides, Vec3::UnitY()));
