@@ -135,7 +135,10 @@ render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics
   hud.rows.push_back({"time", fmt::format("{:.3f} s", time)});
   hud.rows.push_back({"step", fmt::format("1/{} s, {} substeps", scene.fps, settings.substeps)});
   hud.rows.push_back({"iterations", fmt::format("{} per substep", settings.iterations)});
-  const int moving = simulation.world().bodyCount() - 1;
+  const auto& motion = simulation.world().bodies().motion;
+  const auto moving = std::count_if(motion.begin(), motion.end(), [](physics::Motion m) {
+    return m != physics::Motion::kStatic;
+  });
   hud.rows.push_back({"bodies", fmt::format("{}", moving)});
   if (!history.empty()) {
     const FrameMetrics& now = history.back();
