@@ -72,10 +72,7 @@ void drawCentres(const Simulation& simulation, render::Picture& picture) {
 }
 
 render::Plot energyPlot(const std::vector<FrameMetrics>& history, int length) {
-  render::Plot plot;
-  plot.title = "energy";
-  plot.unit = "J";
-  plot.length = length;
+  render::Plot plot{"energy", "J", {}, length, false};
   constexpr const char* kNames[] = {"total", "kinetic", "potential"};
   constexpr double FrameMetrics::*kMembers[] = {&FrameMetrics::total, &FrameMetrics::kinetic,
                                                 &FrameMetrics::potential};
@@ -92,11 +89,7 @@ render::Plot energyPlot(const std::vector<FrameMetrics>& history, int length) {
 // The largest error of each kind, and the overlap; zeros sit at the bottom of the scale.
 render::Plot residualPlot(const std::vector<FrameMetrics>& history, int length) {
   constexpr double kFloor = 1e-12;
-  render::Plot plot;
-  plot.title = "residual";
-  plot.unit = "m, rad";
-  plot.length = length;
-  plot.logarithmic = true;
+  render::Plot plot{"residual", "m, rad", {}, length, true};
   if (history.empty()) return plot;
   const auto addCurve = [&](const std::string& name, auto valueOf) {
     const int index = static_cast<int>(plot.curves.size());

@@ -57,11 +57,9 @@ class TableReader {
   // The visitor of `fields`.
   template <class T>
   void operator()(const physics::Field& field, T& member) {
-    if (const Value* value = take(field.name)) {
-      readValue(*value, spot(field), member);
-    } else if (field.required) {
-      failHere("expected a value for '" + std::string(field.name) + "'");
-    }
+    const Value* value = take(field.name);
+    if (value != nullptr) return readValue(*value, spot(field), member);
+    if (field.required) failHere("expected a value for '" + std::string(field.name) + "'");
   }
 
   const Value* take(const std::string& name);  // null where absent; the name is known from now on
@@ -74,7 +72,6 @@ class TableReader {
 
   const Value& table() const { return table_; }
   const Context& context() const { return context_; }
-  const std::string& key() const { return key_; }
   Spot spot(const physics::Field& field) const;
   [[noreturn]] void failHere(const std::string& message) const;
   [[noreturn]] void failAt(const char* name, const std::string& message) const;
