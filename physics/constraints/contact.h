@@ -28,11 +28,13 @@ struct ContactPointState {
   double normalTotal = 0;             // accumulated, on a along n, times h^2
   Vec3 frictionOnce = Vec3::Zero();   // the same of what stood wrong at the start: slip, and
   double normalOnce = 0;              // overlap; these move bodies without speeding them
+  double normalBefore = 0;            // normalTotal a substep earlier
   double gapAtStart = 0;              // c at the start of the substep [m]
   double approach = 0;  // normal velocity at the start of the substep [m/s], negative: closing
   Vec3 normal = Vec3::UnitY();  // world, of this substep
   Vec3 extra = Vec3::Zero();    // impulse that push() applies, times h^2
   double resistance = 0;        // A of the normal row
+  bool settled = false;   // its multiplier is that of rest, however new
   bool sticking = false;
   bool loaded = false;  // it starts the substep with an impulse
 };

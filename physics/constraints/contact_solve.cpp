@@ -115,54 +115,56 @@ void solveNormal(ContactPointState& p, double gap, const Direction& row, double 
   p.normalTotal = next;
 }
 
-// (101): within nu_s N it sticks, beyond it slides with nu_d N.
-bool clampFriction(Vec2& total, const Friction& friction, double normal) {
-  const double squared = total.squaredNorm(), limit = friction.staticCoefficient * normal;
-  if (squared <= limit * limit) return true;
-  total *= friction.dynamicCoefficient * normal / std::sqrt(squared);
-  return false;
-}
-
 struct FrictionRows {
   Direction r1, r2;
   double k12, determinant;
 };
 
-// One solve of the two rows for error (c1, c2), on `total`; true while it sticks.
-bool solveTangent(const FrictionRows& rows, double c1, double c2, const Friction& friction,
-                  double normal, double xi, Vec3& total, Push& push) {
+// One solve of the two rows for error c, on `total`; true while it sticks (101). Sticking takes the
+// full step. Sliding takes the step along c, (99),(100): there friction must oppose the slip, and
+// the full step would turn it towards where the bodies give way most.
+bool solveTangent(const FrictionRows& rows, const Vec2& c, const Friction& friction, double normal,
+                  double xi, Vec3& total, Push& push) {
+  const double k11 = rows.r1.resistance, k22 = rows.r2.resistance, k12 = rows.k12;
   const Vec2 before(total.dot(rows.r1.d), total.dot(rows.r2.d));
-  Vec2 next = before - xi / rows.determinant *
-                           Vec2(rows.r2.resistance * c1 - rows.k12 * c2,
-                                rows.r1.resistance * c2 - rows.k12 * c1);  // (100)
-  const bool sticks = clampFriction(next, friction, normal);
+  Vec2 next =
+      before - xi / rows.determinant * Vec2(k22 * c.x() - k12 * c.y(), k11 * c.y() - k12 * c.x());
+  const double limit = friction.staticCoefficient * normal;
+  const bool sticks = next.squaredNorm() <= limit * limit;
+  if (!sticks) {
+    const double stiffest = 0.5 * (k11 + k22) + std::hypot(0.5 * (k11 - k22), k12);
+    next = before - xi / stiffest * c;
+    const double length = next.norm();
+    if (length > limit) next *= friction.dynamicCoefficient * normal / length;
+  }
   total = next.x() * rows.r1.d + next.y() * rows.r2.d;
   add(push, rows.r1, next.x() - before.x());
   add(push, rows.r2, next.y() - before.y());
   return sticks;
 }
 
-void solveFriction(const ContactPair& pair, ContactPointState& p, int k, const Bodies& bodies,
-                   double xi, Visit& visit) {
+double solveFriction(const ContactPair& pair, ContactPointState& p, int k, const Bodies& bodies,
+                     double xi, Visit& visit) {
   FrictionRows rows{directionAt(visit, k, visit.t1, bodies, pair),
                     directionAt(visit, k, visit.t2, bodies, pair), 0, 0};
   rows.k12 = rows.r1.a.dot(rows.r2.wa) + rows.r1.b.dot(rows.r2.wb);
   rows.determinant = rows.r1.resistance * rows.r2.resistance - rows.k12 * rows.k12;
-  if (!(rows.determinant > 1e-300)) return;
+  if (!(rows.determinant > 1e-300)) return 0;
+  const Vec3 before = p.frictionTotal;
   const Vec3 onA = p.shape.radiusA == 0 ? visit.armA[k] : Vec3(visit.rotationA * p.anchorA);
   const Vec3 dp = visit.armB[k] - visit.armA[k] + onA - visit.rotationB * p.anchorB;
-  double c1 = dp.dot(visit.t1) + moved(visit, rows.r1, visit.lasting);
-  double c2 = dp.dot(visit.t2) + moved(visit, rows.r2, visit.lasting);
+  Vec2 c(dp.dot(visit.t1) + moved(visit, rows.r1, visit.lasting),
+         dp.dot(visit.t2) + moved(visit, rows.r2, visit.lasting));
   if (visit.corrects) {
-    const double done1 = corrected(visit, rows.r1), done2 = corrected(visit, rows.r2);
-    solveTangent(rows, p.slip.dot(visit.t1) + done1 + moved(visit, rows.r1, visit.once),
-                 p.slip.dot(visit.t2) + done2 + moved(visit, rows.r2, visit.once), pair.friction,
-                 p.normalTotal, xi, p.frictionOnce, visit.once);
-    c1 -= done1;
-    c2 -= done2;
+    const Vec2 done(corrected(visit, rows.r1), corrected(visit, rows.r2));
+    const Vec2 standing(p.slip.dot(visit.t1) + done.x() + moved(visit, rows.r1, visit.once),
+                        p.slip.dot(visit.t2) + done.y() + moved(visit, rows.r2, visit.once));
+    solveTangent(rows, standing, pair.friction, p.normalTotal, xi, p.frictionOnce, visit.once);
+    c -= done;
   }
   p.sticking =
-      solveTangent(rows, c1, c2, pair.friction, p.normalTotal, xi, p.frictionTotal, visit.lasting);
+      solveTangent(rows, c, pair.friction, p.normalTotal, xi, p.frictionTotal, visit.lasting);
+  return (p.frictionTotal - before).norm() * rows.r1.resistance;
 }
 
 void displacePair(const ContactPair& pair, const Push& lasting, const Push& once, bool corrects,
@@ -211,6 +213,13 @@ void measureStart(ContactPair& pair, const Bodies& bodies) {
   }
 }
 
+// How much of the last multiplier is likely to be needed again. One that is more than twice what it
+// was a substep earlier was an impact, which is over: then what there was before it.
+double lastingShare(const ContactPointState& p) {
+  if (p.normalTotal <= 2 * p.normalBefore || p.settled) return 1;
+  return p.normalBefore / p.normalTotal;
+}
+
 void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
   const Pose &a = bodies.start[pair.a], &b = bodies.start[pair.b];
   const Vec3 n = normalOf(pair, bodies.start);
@@ -218,9 +227,11 @@ void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
   measureStart(pair, bodies);
   for (int k = 0; k < pair.count; ++k) {
     ContactPointState& p = pair.points[k];
-    if (!warm) p.normalTotal = 0;
+    const double share = warm ? lastingShare(p) : 0;
+    p.normalBefore = p.normalTotal;
+    p.normalTotal *= share;
     p.loaded = p.normalTotal > 0;
-    p.frictionTotal = warm ? Vec3(p.frictionTotal - p.frictionTotal.dot(n) * n) : Vec3::Zero();
+    p.frictionTotal = share * (p.frictionTotal - p.frictionTotal.dot(n) * n);
     p.normalOnce = 0;
     p.frictionOnce.setZero();
     p.extra = p.normalTotal * n + p.frictionTotal;
@@ -261,16 +272,18 @@ double solveNormals(ContactPair& pair, Bodies& bodies, double xi, double allowan
   return largest;
 }
 
-void solveFrictions(ContactPair& pair, Bodies& bodies, double xi, bool backward, Visit& visit) {
-  if (pair.friction.staticCoefficient == 0) return;
+double solveFrictions(ContactPair& pair, Bodies& bodies, double xi, bool backward, Visit& visit) {
+  if (pair.friction.staticCoefficient == 0) return 0;
+  double largest = 0;
   visit.t1 = anyNormalTo(visit.n);
   visit.t2 = visit.n.cross(visit.t1);
   for (int i = 0; i < pair.count; ++i) {
     const int k = backward ? pair.count - 1 - i : i;
     ContactPointState& p = pair.points[k];
     if (p.normalTotal > 0 || !p.frictionTotal.isZero(0))
-      solveFriction(pair, p, k, bodies, xi, visit);
+      largest = std::max(largest, solveFriction(pair, p, k, bodies, xi, visit));
   }
+  return largest;
 }
 
 }  // namespace
@@ -278,9 +291,10 @@ void solveFrictions(ContactPair& pair, Bodies& bodies, double xi, bool backward,
 double solve(ContactPair& pair, Bodies& bodies, double xi, double allowance, bool backward) {
   Visit visit = beginVisit(pair, bodies);
   if (!evaluateGaps(pair, bodies, visit)) return 0;
-  if (backward) solveFrictions(pair, bodies, xi, backward, visit);
-  const double largest = solveNormals(pair, bodies, xi, allowance, backward, visit);
-  if (!backward) solveFrictions(pair, bodies, xi, backward, visit);
+  double largest = 0;
+  if (backward) largest = solveFrictions(pair, bodies, xi, backward, visit);
+  largest = std::max(largest, solveNormals(pair, bodies, xi, allowance, backward, visit));
+  if (!backward) largest = std::max(largest, solveFrictions(pair, bodies, xi, backward, visit));
   const Push &lasting = visit.lasting, &once = visit.once;
   const double sum = lasting.impulse.sum() + lasting.turnA.sum() + lasting.turnB.sum() +
                      once.impulse.sum() + once.turnA.sum() + once.turnB.sum();

@@ -96,6 +96,10 @@ void iterate(World::Impl& world, double dt, StepReport& report,
     if (!sweep(world, dt, extra > 0 && extra % 2 == 1, report)) return;
     ++report.iterations;
   }
+  const bool settling = limit.tolerance < world.settings.tolerance;
+  for (ContactPair& pair : world.contacts.pairs) {
+    for (ContactPointState& point : pair.points) point.settled = settling;
+  }
 }
 
 void nonlinearGaussSeidel(World::Impl& world, double dt, StepReport& report) {
