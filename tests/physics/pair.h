@@ -15,6 +15,8 @@ struct BodyOf {
   Pose pose;
 };
 
+inline Pose at(const Vec3& x) { return {x, Quat::Identity()}; }
+
 // Adds a body at rest; its pose is the start of the substep too.
 BodyId add(Bodies& bodies, const BodyOf& def);
 

@@ -1,0 +1,111 @@
+// Impacts: energy, restitution, and bodies too fast for one step.
+#include <gtest/gtest.h>
+
+#include "physics/measure.h"
+#include "tests/physics/pair.h"
+
+namespace physics::testing {
+namespace {
+
+Settings collisions(double dt, double restitution) {
+  Settings settings;
+  settings.dt = dt;
+  settings.substeps = 1;
+  settings.iterations = 8;
+  settings.contact = ContactSettings{};
+  settings.contact->restitution = restitution;
+  return settings;
+}
+
+BodyDef ball(double mass, const Vec3& x, const Vec3& v) {
+  BodyDef def;
+  def.shape = Sphere{0.5};
+  def.mass = mass;
+  def.pose.x = x;
+  def.velocity.v = v;
+  return def;
+}
+
+BodyDef tumblingBox(const Vec3& x, const Vec3& v) {
+  BodyDef def;
+  def.shape = Box{Vec3(1, 0.6, 0.4)};
+  def.pose = {x, about({1, 2, 3}, 0.7)};
+  def.velocity = {v, Vec3(2, -3, 1)};
+  return def;
+}
+
+class Impact : public ::testing::TestWithParam<double> {};  // speed [m/s]
+INSTANTIATE_TEST_SUITE_P(At, Impact, ::testing::Values(1.0, 10.0, 60.0, 100.0));
+
+TEST_P(Impact, GainsNoEnergyAndKeepsLinearMomentum) {
+  for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+    World world(collisions(dt, 0));
+    world.add(tumblingBox(Vec3::Zero(), Vec3::Zero()));
+    world.add(tumblingBox(Vec3(3, 0.2, 0.1), Vec3(-GetParam(), 0, 0)));
+    const Measures first = measure(world);
+    double last = first.kinetic;
+    while (world.stepCount() * dt < 3 / GetParam() + 1) {
+      ASSERT_FALSE(world.step().notFinite);
+      const Measures now = measure(world);
+      EXPECT_LE(now.kinetic, last * (1 + 1e-3));
+      last = now.kinetic;
+    }
+    EXPECT_LT((measure(world).linearMomentum - first.linearMomentum).norm(), 1e-10 * GetParam());
+    EXPECT_LT(last, 0.99 * first.kinetic);  // they did meet
+  }
+}
+
+TEST_P(Impact, OfABallDoesNotTunnelThroughAThinWall) {
+  for (const double dt : {1.0 / 30, 1.0 / 60}) {
+    World world(collisions(dt, 0));
+    BodyDef wall;
+    wall.shape = Box{Vec3(0.05, 4, 4)};
+    wall.motion = Motion::kStatic;
+    world.add(wall);
+    world.add(ball(1, Vec3(-7.3, 0.1, 0.2), Vec3(GetParam(), 0, 0)));
+    while (world.stepCount() * dt < 10 / GetParam()) world.step();
+    EXPECT_LT(world.bodies().pose[2].x.x(), -0.5);
+  }
+}
+
+// C07: v1' = (m1 - e m2) v/(m1 + m2), v2' = (1 + e) m1 v/(m1 + m2).
+TEST(Restitution, OfTwoBallsIsTheClosedForm) {
+  for (const double e : {0.0, 0.5, 1.0}) {
+    World world(collisions(1.0 / 60, e));
+    world.add(ball(2, Vec3(-2, 0, 0), Vec3(3, 0, 0)));
+    world.add(ball(1, Vec3::Zero(), Vec3::Zero()));
+    for (int k = 0; k < 120; ++k) world.step();
+    EXPECT_NEAR(world.bodies().velocity[1].v.x(), (2 - e) * 3 / 3, 1e-9);
+    EXPECT_NEAR(world.bodies().velocity[2].v.x(), (1 + e) * 2 * 3 / 3, 1e-9);
+  }
+}
+
+TEST(Restitution, OfZeroEndsTheApproach) {
+  World world(collisions(1.0 / 60, 0));
+  world.add(ball(2, Vec3(-2, 0, 0), Vec3(3, 0, 0)));
+  world.add(ball(1, Vec3::Zero(), Vec3::Zero()));
+  for (int k = 0; k < 120; ++k) world.step();
+  EXPECT_NEAR(world.bodies().velocity[1].v.x(), 2, 1e-12);
+  EXPECT_NEAR(world.bodies().velocity[2].v.x(), 2, 1e-12);
+  EXPECT_LT(world.largestOverlap(), 1e-12);
+}
+
+// An overlap that stood at the start is undone no faster than v_max and gives no speed.
+TEST(Overlap, IsUndoneAtTheSeparationSpeedAndLeavesNone) {
+  Settings settings = collisions(1.0 / 60, 0);
+  settings.contact->maxSeparationSpeed = 0.6;  // .01 m a step
+  World world(settings);
+  world.add(ball(1, Vec3(-0.45, 0, 0), Vec3::Zero()));
+  world.add(ball(1, Vec3(0.45, 0, 0), Vec3::Zero()));
+  world.step();
+  const auto& bodies = world.bodies();
+  EXPECT_NEAR(bodies.pose[2].x.x() - bodies.pose[1].x.x(), 0.91, 1e-12);  // from .9
+  for (int k = 0; k < 30; ++k) world.step();
+  const double left = 1 - (bodies.pose[2].x.x() - bodies.pose[1].x.x());
+  EXPECT_GE(left, -1e-12);
+  EXPECT_LE(left, 1e-4 + 1e-12);  // the band in which bodies count as touching
+  EXPECT_LT(measure(world).kinetic, 1e-20);
+}
+
+}  // namespace
+}  // namespace physics::testing
