@@ -52,6 +52,10 @@ TEST(Determinism, TheHashSeesTheLastBitOfAVelocity) {
   one.setVelocity(4, {Vec3(1, 0, 0), Vec3::Zero()});
   other.setVelocity(4, {Vec3(std::nextafter(1.0, 2.0), 0, 0), Vec3::Zero()});
   EXPECT_NE(stateHash(one), stateHash(other));
+  other.setVelocity(4, {Vec3(1, 0, 0), Vec3::Zero()});
+  EXPECT_EQ(stateHash(one), stateHash(other));
+  other.setVelocity(4, {Vec3(1, 0, 0), Vec3(0, 0, 1e-300)});
+  EXPECT_NE(stateHash(one), stateHash(other));
 }
 
 TEST(Determinism, TheHashSeesTheStepCount) {
