@@ -55,10 +55,11 @@ constexpr double kSmallAngleSquared = 1e-2;  // below: five terms are exact to 1
 }  // namespace
 
 SineCosine sineCosine(double angle) {
-  constexpr double kHalfPiHigh = 1.57079632679489655800e+00,
-                   kHalfPiLow = 6.12323399573676603587e-17;
+  // pi/2 in three parts (Cody and Waite): k times each of the first two is exact while |k| < 2^20.
+  constexpr double kHalfPi1 = 1.57079632673412561417e+00, kHalfPi2 = 6.07710050630396597660e-11,
+                   kHalfPi3 = 2.02226624879595063154e-21;
   const double k = std::nearbyint(angle * (2 / kPi));
-  const double r = (angle - k * kHalfPiHigh) - k * kHalfPiLow;
+  const double r = ((angle - k * kHalfPi1) - k * kHalfPi2) - k * kHalfPi3;
   const double s = sineReduced(r), c = cosineReduced(r);
   switch (static_cast<long long>(k) & 3) {
     case 0:

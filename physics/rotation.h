@@ -11,7 +11,7 @@ struct SineCosine {
   double sine, cosine;
 };
 SineCosine sineCosine(double angle);    // |angle| < 1e6, error < 2e-16
-double arcTangent(double y, double x);  // atan2, in (-pi, pi], error < 3e-16
+double arcTangent(double y, double x);  // atan2, in (-pi, pi], error < 1e-15
 
 constexpr double kPi = 3.14159265358979323846;
 

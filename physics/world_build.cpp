@@ -49,6 +49,18 @@ void checkPair(const World::Impl& w, const D& def) {
     require(body >= 0 && body < w.bodies.size(), "no such body");
   }
   require(def.bodies[0] != def.bodies[1], "a body cannot be joined to itself");
+  if constexpr (requires { def.at; }) require(finite(def.at), "a joint's place must be finite");
+  if constexpr (requires { def.anchors[0].x(); }) {
+    require(finite(def.anchors[0]) && finite(def.anchors[1]), "anchors must be finite");
+  } else if constexpr (requires { def.anchors; }) {
+    require(!def.anchors || (finite((*def.anchors)[0]) && finite((*def.anchors)[1])),
+            "anchors must be finite");
+  }
+}
+
+void checkOrientation(const Quat& q) {
+  require(q.coeffs().allFinite() && q.norm() > 1e-6,
+          "an orientation must be a finite quaternion, not zero");
 }
 
 template <class C, class D>
@@ -118,8 +130,11 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 BodyId World::add(const BodyDef& def) {
-  checkBody(def);
   Impl& w = *impl_;
+  const Friction standard = w.settings.contact ? w.settings.contact->friction : Friction{};
+  const Friction friction = def.friction.value_or(standard);
+  checkBody(def);
+  checkFriction(friction);
   Bodies& b = w.bodies;
   const BodyId id = b.size();
   const bool dynamic = def.motion == Motion::kDynamic;
@@ -140,9 +155,7 @@ BodyId World::add(const BodyDef& def) {
   b.correction.emplace_back();
   b.freeTurn.push_back(Vec3::Zero());
   b.shape.push_back(def.shape);
-  const Friction standard = w.settings.contact ? w.settings.contact->friction : Friction{};
-  b.friction.push_back(def.friction.value_or(standard));
-  checkFriction(b.friction.back());
+  b.friction.push_back(friction);
   w.loads.emplace_back();
   if (w.settings.contact && id != kWorldBody) {
     w.collider.add(id, def.shape, def.motion != Motion::kStatic);
@@ -180,6 +193,7 @@ int World::add(const TwistLimitDef& def) {
   require(def.range[0] <= def.range[1] && def.range[0] >= -kPi && def.range[1] <= kPi,
           "a twist's limits must be ordered and within 180 degrees");
   const Vec3 n = impl_->bodies.pose[def.bodies[0]].q.conjugate() * direction(def.axis);
+  if (def.reference) checkOrientation(*def.reference);
   const Quat reference = def.reference.value_or(relativeOrientation(*impl_, def.bodies));
   return append(*impl_, def,
                 TwistLimit{def.bodies, n, reference.normalized(), def.range[0], def.range[1]});
@@ -204,12 +218,15 @@ int World::add(const DriveDef& def) {
   checkPair(*impl_, def);
   require(def.stiffness >= 0 && def.damping >= 0 && def.maxTorque >= 0,
           "a drive's stiffness, damping and torque must not be negative");
+  if (def.target) checkOrientation(*def.target);
   const Quat target = def.target.value_or(relativeOrientation(*impl_, def.bodies)).normalized();
   return append(*impl_, def, Drive{def.bodies, target, def.stiffness, def.damping, def.maxTorque});
 }
 
 int World::add(const MotorDef& def) {
   checkPair(*impl_, def);
+  require(std::isfinite(def.speed) && def.maxTorque >= 0,
+          "a motor's speed must be finite and its torque not negative");
   const Vec3 n = impl_->bodies.pose[def.bodies[0]].q.conjugate() * direction(def.axis);
   return append(*impl_, def, Motor{def.bodies, n, def.speed, def.maxTorque});
 }

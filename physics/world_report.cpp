@@ -39,6 +39,8 @@ void World::applyForce(BodyId body, const Vec3& force, const Vec3& torque) {
 void World::setDriveTarget(int drive, const Quat& target) {
   auto& items = std::get<Kind<DriveDef, Drive>>(impl_->kinds).set.items;
   require(drive >= 0 && drive < static_cast<int>(items.size()), "no such drive");
+  require(target.coeffs().allFinite() && target.norm() > 1e-6,
+          "a drive's target must be a finite quaternion, not zero");
   items[drive].target = target.normalized();
 }
 

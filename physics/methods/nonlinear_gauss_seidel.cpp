@@ -57,6 +57,14 @@ Patience patience(const World::Impl& world, const StepReport& report) {
   return {s.iterations, s.maxIterations, s.tolerance};
 }
 
+// Conjugate directions are those of the contacts alone: with joints between them they would not be
+// conjugate.
+bool onlyContacts(const World::Impl& world) {
+  bool only = true;
+  forEachKind(world.kinds, [&](const auto& kind) { only = only && kind.set.items.empty(); });
+  return only;
+}
+
 }  // namespace
 
 void prepareConstraints(World::Impl& world, double dt) {
@@ -86,11 +94,13 @@ bool sweep(World::Impl& world, double dt, bool backward, StepReport& report) {
 void iterate(World::Impl& world, double dt, StepReport& report,
              const std::function<bool()>& beforeSweep) {
   const Patience limit = patience(world, report);
+  const bool accelerated = onlyContacts(world);
   for (int k = 0; k < limit.least || (k < limit.most && report.residual > limit.tolerance); ++k) {
-    const int extra =
-        k - limit.least;  // beyond the least: forwards and backwards in turn, accelerated
-    if (extra == 0) world.conjugate.begin(world.contacts);
-    if (extra > 0 && extra % 2 == 0) world.conjugate.accelerate(world.contacts, world.bodies);
+    const int extra = k - limit.least;  // beyond the least: forwards and backwards in turn
+    if (accelerated && extra == 0) world.conjugate.begin(world.contacts);
+    if (accelerated && extra > 0 && extra % 2 == 0) {
+      world.conjugate.accelerate(world.contacts, world.bodies);
+    }
     if (k > 0) refreshInertia(world.bodies);
     if (beforeSweep && !beforeSweep()) return;
     if (!sweep(world, dt, extra > 0 && extra % 2 == 1, report)) return;
