@@ -108,6 +108,9 @@ void makeVideo(const scenes::Scene& scene, const RenderJob& job, RenderResult& r
                      {"last", job.frames.back()},
                      {"step", step}};
   if (result.drawn == 0 && result.record.video == made && std::filesystem::exists(file)) return;
+  if (job.progress != ProgressMode::kNone && job.progress != ProgressMode::kJson) {
+    note(scene.name + ": making the film\n");
+  }
   const Stopwatch watch;
   render::FilmOptions film;
   film.framesPerSecond = std::max(1, static_cast<int>(std::lround(1.0 * scene.fps / step)));

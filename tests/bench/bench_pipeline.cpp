@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr int kFrames = 24;
+constexpr int kFrames = 60;  // enough to make little of opening the contexts
 
 struct TemporaryFolder {
   std::filesystem::path path;
