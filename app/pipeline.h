@@ -2,7 +2,6 @@
 // makes the pictures.
 #pragma once
 
-#include <atomic>
 #include <exception>
 #include <functional>
 #include <mutex>

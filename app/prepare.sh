@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2154
 # Sourced by app/run.sh and tests/run.sh: installs the packages of app/packages.txt, configures, builds.
 # Expects `root`, the folder of the source tree.
 

@@ -70,6 +70,23 @@ TEST_F(Simulate, RunJsonTellsWhatWasRun) {
   }
 }
 
+TEST_F(Simulate, NumbersThatFailEndTheRunWithThreeAndKeepTheTable) {
+  const std::string text = readBytes(folder / "drop.toml");
+  writeText(folder / "fast.toml", text + R"([[body]]
+name = "top"
+shape = { box = { size = [1, 2, 3] } }
+mass = 1
+position = [0, 50, 0]
+angular_velocity = [1e170, 1e170, 0]
+)");
+  const Outcome outcome = run("simulate fast.toml --quiet --trajectory t.csv");
+  EXPECT_EQ(outcome.code, 3);
+  for (const char* told : {"fast", "frame 0", "'top'"}) {
+    EXPECT_NE(outcome.errors.find(told), std::string::npos) << outcome.errors;
+  }
+  EXPECT_EQ(lines(readBytes(folder / "t.csv")).size(), 4u);  // the start of three bodies
+}
+
 TEST_F(Simulate, ProgressAsJsonIsOneObjectPerLine) {
   const Outcome outcome = run("simulate drop.toml --progress json");
   ASSERT_FALSE(outcome.errors.empty());
