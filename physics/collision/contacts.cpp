@@ -68,9 +68,9 @@ void insistOnDeepest(const Contacts& c, double clearly, Choice& chosen) {
   if (c.points[deepest].gap < lowest - clearly) chosen.index[nearest] = deepest;
 }
 
-Choice choose(const Contacts& c, double keep, double tie) {
+Choice choose(const Contacts& c, double keep, double tie, double clearly) {
   Choice chosen = spread(c, keep, tie);
-  insistOnDeepest(c, 10 * tie, chosen);
+  insistOnDeepest(c, clearly, chosen);
   return chosen;
 }
 
@@ -157,9 +157,9 @@ void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flat
   contacts.add(closest.onA, closest.onB, feature);
 }
 
-void finish(const Contacts& contacts, const Relative& pose, double keep, double tie,
+void finish(const Contacts& contacts, const Relative& pose, double keep, double tie, double clearly,
             Manifold& out) {
-  Choice chosen = choose(contacts, keep, tie);
+  Choice chosen = choose(contacts, keep, tie, clearly);
   for (int k = 1; k < chosen.count; ++k) {  // by feature
     for (int l = k; l > 0; --l) {
       int &p = chosen.index[l - 1], &q = chosen.index[l];

@@ -52,9 +52,11 @@ void touchFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owne
 void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flatness,
                 Contacts& contacts);
 
-// Keeps the points with gap <= keep, at most four of them: the deepest, the furthest from it, and
-// those that span the largest area. Ties within `tie` metres go to the earlier point.
-void finish(const Contacts& contacts, const Relative& pose, double keep, double tie, Manifold& out);
+// Keeps the points with gap <= keep, at most four of them: the furthest along the diagonals of the
+// plane of touch, and the deepest where it is deeper than those by more than `clearly` [m]. Ties
+// within `tie` metres go to the earlier point.
+void finish(const Contacts& contacts, const Relative& pose, double keep, double tie, double clearly,
+            Manifold& out);
 
 // Feature tags in the two top bits but one; the top bit tells the owner of a facet.
 constexpr std::uint32_t kFacetTag = 0u << 29, kLinesTag = 1u << 29, kPointTag = 2u << 29;

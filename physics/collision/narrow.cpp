@@ -13,8 +13,10 @@
 namespace physics::collision {
 namespace {
 
-constexpr double kFlat = 5e-4;  // of the smaller size: directions this close are one
-constexpr double kTie = 1e-4;   // of the smaller size: points this close in rank are one
+constexpr double kFlat = 5e-4;       // of the smaller size: directions this close are one
+constexpr double kDeeper = 1e-3;     // of the smaller size: a corner this much deeper is kept
+constexpr double kRimDeeper = 1e-4;  // a rim has no corners to keep to
+constexpr double kTie = 1e-4;        // of the smaller size: points this close in rank are one
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 double smallerSize(const Solid& a, const Solid& b) {
@@ -166,7 +168,11 @@ double touch(const Solid& a, const Solid& b, const Relative& pose, double reach,
     distance = touchCores(a, b, pose, reach, contacts);
   }
   out.count = 0;
-  if (distance <= reach) finish(contacts, pose, keep, kTie * smallerSize(a, b), out);
+  if (distance <= reach) {
+    const double size = smallerSize(a, b);
+    const bool rim = a.kind == Kind::cylinder || b.kind == Kind::cylinder;
+    finish(contacts, pose, keep, kTie * size, (rim ? kRimDeeper : kDeeper) * size, out);
+  }
   return distance;
 }
 

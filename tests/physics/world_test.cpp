@@ -115,16 +115,19 @@ TEST(NotFinite, ATorqueIsNamedWithItsBody) {
   EXPECT_EQ(report.notFinite->body, 7);
 }
 
-TEST(NotFinite, ADriveTargetIsNamedWithItsConstraint) {
-  World world = heap();
-  DriveDef drive;
-  drive.bodies = {4, 5};
-  world.add(drive);
-  world.setDriveTarget(0, Quat(kNaN, 0, 0, 0));
+TEST(NotFinite, AJointThatOverflowsIsNamed) {
+  World world;
+  BodyDef ball;
+  ball.shape = Sphere{0.1};
+  BallSocketDef joint;
+  joint.bodies = {world.add(ball), world.add(ball)};
+  joint.form = Form::kScalar;
+  world.add(joint);
+  world.setVelocity(joint.bodies[0], {Vec3(1e200, 0, 0), Vec3::Zero()});
   const StepReport report = world.step();
   ASSERT_TRUE(report.notFinite);
-  EXPECT_EQ(report.notFinite->constraint, "drive 0");
-  EXPECT_EQ(report.notFinite->body, 4);
+  EXPECT_EQ(report.notFinite->constraint, "ball_socket 0");
+  EXPECT_EQ(report.notFinite->body, joint.bodies[0]);
 }
 
 TEST(Report, CountsSubstepsAndIterations) {
