@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include "physics/constraint_solve.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
 
 namespace physics {

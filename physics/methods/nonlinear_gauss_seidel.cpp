@@ -1,6 +1,8 @@
 // Non-linear Gauss-Seidel.
 #include "physics/methods/nonlinear_gauss_seidel.h"
 
+#include "physics/constraint_solve.h"
+
 namespace physics {
 namespace {
 

@@ -1,7 +1,7 @@
 // Two bodies, or a few, outside a World: what the solver sees, for tests of one constraint.
 #pragma once
 
-#include "physics/constraint.h"
+#include "physics/constraint_solve.h"
 #include "physics/effects/free_motion.h"
 #include "physics/make/matter.h"
 
