@@ -34,7 +34,7 @@ struct ContactPointState {
   Vec3 normal = Vec3::UnitY();  // world, of this substep
   Vec3 extra = Vec3::Zero();    // impulse that push() applies, times h^2
   double resistance = 0;        // A of the normal row
-  bool settled = false;   // its multiplier is that of rest, however new
+  bool settled = false;         // its multiplier is that of rest, however new
   bool sticking = false;
   bool loaded = false;  // it starts the substep with an impulse
 };

@@ -43,7 +43,8 @@ TEST_P(Impact, GainsNoEnergyAndKeepsLinearMomentum) {
     world.add(tumblingBox(Vec3::Zero(), Vec3::Zero()));
     world.add(tumblingBox(Vec3(3, 0.2, 0.1), Vec3(-GetParam(), 0, 0)));
     const Measures first = measure(world);
-    double last = first.kinetic;  // never above the start; a grazing hit may give back 1 % of its own loss
+    double last =
+        first.kinetic;  // never above the start; a grazing hit may give back 1 % of its own loss
     while (world.stepCount() * dt < 3 / GetParam() + 1) {
       ASSERT_FALSE(world.step().notFinite);
       const Measures now = measure(world);
