@@ -2,10 +2,12 @@
 // What is solved, and how, is constraint_solve.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 #include "physics/body.h"
 #include "physics/fields.h"
@@ -20,20 +22,69 @@ struct Configuration {
   double dt = 0;
 };
 
-// Error, gradient and bounds of one constraint at a configuration.
+// The number of bodies of a kind whose constraints have each their own: the nodes of a rope.
+constexpr int kMany = -1;
+
+template <int kBodies, class T>
+using PerBody = std::conditional_t<kBodies == kMany, std::vector<T>,
+                                   std::array<T, static_cast<std::size_t>(std::max(kBodies, 0))>>;
+
+// What a constraint and a force have in common at a configuration.
 template <int kBodies, int kRows>
-struct Row {
+struct Gradients {
   using Vector = Eigen::Matrix<double, kRows, 1>;
+  using Matrix = Eigen::Matrix<double, kRows, kRows>;
   using Gradient = Eigen::Matrix<double, kRows, 3>;
-  Vector c = Vector::Zero();
-  std::array<Gradient, kBodies> linear;  // dc/dx, only where the kind is linear
-  std::array<Gradient, kBodies>
-      angular;         // dc/dtheta; theta is a world-frame rotation, q <- exp(theta) q
-  double alpha = 0;    // compliance, in units of A
-  bool active = true;  // false: nothing to solve, whatever c
+  Vector c = Vector::Zero();           // the coordinates: a constraint's error, a spring's stretch
+  PerBody<kBodies, Gradient> linear;   // dc/dx, only where the kind is linear
+  PerBody<kBodies, Gradient> angular;  // dc/dtheta, only where it is angular; theta is a
+                                       // world-frame rotation, q <- exp(theta) q
+  bool active = true;                  // false: nothing to solve, whatever c
+  double longest = std::numeric_limits<double>::infinity();  // bound of the total's length
+};
+
+// Error, gradient and bounds of one constraint: c = 0, or one-sided where the total is bounded.
+template <int kBodies, int kRows>
+struct Row : Gradients<kBodies, kRows> {
+  double alpha = 0;                                       // compliance over h^2, in units of A
   double low = -std::numeric_limits<double>::infinity();  // bounds of every component of the total
   double high = std::numeric_limits<double>::infinity();
-  double longest = std::numeric_limits<double>::infinity();  // bound of the total's length
+};
+
+// A force along J: its value at the present displacement and how it falls off with c, (102)-(105).
+template <int kBodies, int kRows>
+struct Push : Gradients<kBodies, kRows> {
+  typename Gradients<kBodies, kRows>::Vector f;  // times h^2
+  typename Gradients<kBodies, kRows>::Matrix k;  // K = -df/dc times h^2, not negative definite
+};
+
+// Forces have no error that could stand, and no row in the direct method.
+template <class C>
+concept Force = requires(const C& item, Push<C::kBodies, C::kRows>& push) {
+  item.evaluate(Configuration{}, push);
+};
+
+template <class C>
+using Evaluated =
+    std::conditional_t<Force<C>, Push<C::kBodies, C::kRows>, Row<C::kBodies, C::kRows>>;
+
+// Points have no rotation, and a kind over points does not pay for one.
+template <class C>
+constexpr bool isAngular() {
+  if constexpr (requires { C::kAngular; }) return C::kAngular;
+  return true;
+}
+
+template <class C>
+struct Response {  // M^-1 J^T, per body
+  PerBody<C::kBodies, Eigen::Matrix<double, 3, C::kRows>> linear, angular;
+};
+
+// What a visit works in. Kept by the set where its size differs from one constraint to the next.
+template <class C>
+struct Scratch {
+  Evaluated<C> row;
+  Response<C> response;
 };
 
 template <class C>
@@ -50,17 +101,19 @@ struct Set {
   using Vector = typename Row<C::kBodies, C::kRows>::Vector;
   struct Tuned {
     double relaxation, regularisation;
-    bool split;
+    bool split = false;
+    bool damps = false;  // the regularisation is in mu alone
   };
   std::vector<C> items;
   std::vector<Multipliers<C>> lambda;
   std::vector<Tuned> tuned;
+  Scratch<C> scratch;  // of kinds with kMany bodies
 };
 
-// Springs, drives and motors are forces: they have no error that could stand.
+// Constraints on velocities, such as motors, have no error that could stand at X^t either.
 template <class C>
-constexpr bool isForce() {
-  return requires { C::kForce; };
+constexpr bool canStand() {
+  return !Force<C> && !requires { C::kOfVelocity; };
 }
 
 // Equalities without bounds: the rows that the direct method takes.

@@ -9,6 +9,7 @@
 // h^2.
 #pragma once
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "physics/constraint.h"
@@ -17,27 +18,37 @@
 namespace physics {
 
 template <class C>
-struct Response {  // M^-1 J^T, per body
-  std::array<Eigen::Matrix<double, 3, C::kRows>, C::kBodies> linear, angular;
-};
-
-template <class C>
-Eigen::Matrix<double, C::kRows, C::kRows> resistance(const C& item,
-                                                     const Row<C::kBodies, C::kRows>& row,
+Eigen::Matrix<double, C::kRows, C::kRows> resistance(const C& item, const Evaluated<C>& row,
                                                      std::span<const InverseMass> inverse,
                                                      Response<C>& response) {
   Eigen::Matrix<double, C::kRows, C::kRows> a;
   a.setZero();
-  for (int b = 0; b < C::kBodies; ++b) {
+  if constexpr (C::kBodies == kMany) {
+    response.linear.resize(item.bodies.size());
+    response.angular.resize(item.bodies.size());
+  }
+  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     const InverseMass& mass = inverse[item.bodies[b]];
     if constexpr (C::kLinear) {
       response.linear[b] = mass.m * row.linear[b].transpose();
       a.noalias() += row.linear[b].lazyProduct(response.linear[b]);
     }
-    response.angular[b].noalias() = mass.inertia.lazyProduct(row.angular[b].transpose());
-    a.noalias() += row.angular[b].lazyProduct(response.angular[b]);
+    if constexpr (isAngular<C>()) {
+      response.angular[b].noalias() = mass.inertia.lazyProduct(row.angular[b].transpose());
+      a.noalias() += row.angular[b].lazyProduct(response.angular[b]);
+    }
   }
   return a;
+}
+
+// Displaces one body by the change `delta` of a multiplier.
+template <class C>
+Correction displacementOf(const Response<C>& response, std::size_t b,
+                          const typename Set<C>::Vector& delta) {
+  Correction moved;
+  if constexpr (C::kLinear) moved.dx = response.linear[b].lazyProduct(delta);
+  if constexpr (isAngular<C>()) moved.dtheta = response.angular[b].lazyProduct(delta);
+  return moved;
 }
 
 template <class C>
@@ -45,21 +56,22 @@ void displaceBodies(const C& item, const Response<C>& response, const typename S
                     const typename Set<C>::Vector& lasting, Bodies& bodies) {
   const bool corrects = !once.isZero(0);
   if (!corrects && lasting.isZero(0)) return;
-  for (int b = 0; b < C::kBodies; ++b) {
+  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     const BodyId id = item.bodies[b];
-    Vec3 dx = Vec3::Zero(), turn = response.angular[b].lazyProduct(lasting);
-    if constexpr (C::kLinear) dx = response.linear[b].lazyProduct(lasting);
-    bodies.shift[id] += dx;
+    Correction moved = displacementOf<C>(response, b, lasting);
+    if constexpr (C::kLinear) bodies.shift[id] += moved.dx;
     if (corrects) {
-      Vec3 dxOnce = Vec3::Zero();
-      if constexpr (C::kLinear) dxOnce = response.linear[b].lazyProduct(once);
-      const Vec3 turnOnce = response.angular[b].lazyProduct(once);
-      bodies.correction[id].dx += dxOnce;
-      bodies.correction[id].dtheta += turnOnce;
-      dx += dxOnce;
-      turn += turnOnce;
+      const Correction taken = displacementOf<C>(response, b, once);
+      bodies.correction[id].dx += taken.dx;
+      bodies.correction[id].dtheta += taken.dtheta;
+      moved.dx += taken.dx;
+      moved.dtheta += taken.dtheta;
     }
-    displace(bodies.pose[id], dx, turn);
+    if constexpr (isAngular<C>()) {
+      displace(bodies.pose[id], moved.dx, moved.dtheta);
+    } else {
+      bodies.pose[id].x += moved.dx;
+    }
   }
 }
 
@@ -92,57 +104,85 @@ Eigen::Matrix<double, R, 1> step(Eigen::Matrix<double, R, R> a, double alpha, do
 
 // J dX of a correction.
 template <class C>
-typename Set<C>::Vector along(const C& item, const Row<C::kBodies, C::kRows>& row,
+typename Set<C>::Vector along(const C& item, const Evaluated<C>& row,
                               std::span<const Correction> correction) {
   typename Set<C>::Vector sum = Set<C>::Vector::Zero();
-  for (int b = 0; b < C::kBodies; ++b) {
+  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     const Correction& moved = correction[item.bodies[b]];
     if constexpr (C::kLinear) sum += row.linear[b].lazyProduct(moved.dx);
-    sum += row.angular[b].lazyProduct(moved.dtheta);
+    if constexpr (isAngular<C>()) sum += row.angular[b].lazyProduct(moved.dtheta);
   }
   return sum;
 }
 
 // The part of an error at X^t that is wrong: all of an equality's, the violated side of a bound's.
 template <class C>
-typename Set<C>::Vector standingError(const Row<C::kBodies, C::kRows>& row) {
-  if (row.high <= 0) return row.c.cwiseMax(0);
-  if (row.low >= 0) return row.c.cwiseMin(0);
-  return row.c;
+typename Set<C>::Vector standingError(const Evaluated<C>& row) {
+  if constexpr (Force<C>) {
+    return Set<C>::Vector::Zero();
+  } else {
+    if (row.high <= 0) return row.c.cwiseMax(0);
+    if (row.low >= 0) return row.c.cwiseMin(0);
+    return row.c;
+  }
 }
 
-// Splits a visit's error into what the motion of this substep made (solved by `total`, which lasts)
-// and what stood at its start (solved by `once`, which is forgotten, and moves bodies without
-// speeding them).
+// The new total of a constraint whose error is c.
+template <class C>
+typename Set<C>::Vector solved(const C& item, const Evaluated<C>& row,
+                               const typename Gradients<C::kBodies, C::kRows>::Matrix& a,
+                               const typename Set<C>::Tuned& tuned,
+                               const typename Set<C>::Vector& c,
+                               const typename Set<C>::Vector& total) {
+  const double extra = tuned.regularisation * a.trace() / C::kRows;  // (54)
+  const typename Set<C>::Vector residual = c + (row.alpha + (tuned.damps ? 0 : extra)) * total;
+  typename Set<C>::Vector next =
+      total + step<C::kRows>(a, row.alpha + extra, tuned.relaxation, formOf(item), residual);
+  clampTotal(next, row.low, row.high, row.longest);
+  return next;
+}
+
+// The new total of a force: (1 + K A) dlambda = xi (f h^2 - lambda), (106),(118),(124).
+template <class C>
+typename Set<C>::Vector pushed(const Evaluated<C>& push,
+                               const typename Gradients<C::kBodies, C::kRows>::Matrix& a, double xi,
+                               const typename Set<C>::Vector& total) {
+  using Matrix = typename Gradients<C::kBodies, C::kRows>::Matrix;
+  const Matrix left = Matrix::Identity() + push.k * a;
+  typename Set<C>::Vector next = total + xi * (left.inverse() * (push.f - total));
+  constexpr double kFree = std::numeric_limits<double>::infinity();
+  clampTotal(next, -kFree, kFree, push.longest);
+  return next;
+}
+
+// A constraint's error is split into what the motion of this substep made (solved by `total`, which
+// lasts) and, where it is `split`, what stood at its start (solved by `once`, which is forgotten,
+// and moves bodies without speeding them). False: a change was not finite.
 template <class C>
 bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
-           Bodies& bodies, double dt) {
-  Row<C::kBodies, C::kRows> row;
-  item.evaluate({bodies.pose, bodies.start, dt}, row);
-  if (!row.active) return true;
-  Response<C> response;
-  const auto a = resistance(item, row, bodies.inverse, response);
+           Bodies& bodies, double dt, Scratch<C>& s) {
+  item.evaluate({bodies.pose, bodies.start, dt}, s.row);
+  if (!s.row.active) return true;
+  const auto a = resistance(item, s.row, bodies.inverse, s.response);
   const double mean = a.trace() / C::kRows;
   if (!(mean > 1e-300)) return mean == mean;  // nothing here can move
-  const double alpha = row.alpha + tuned.regularisation * mean;
   using Vector = typename Set<C>::Vector;
-  const auto change = [&](const Vector& c, const Vector& total) -> Vector {
-    const Vector residual = c + alpha * total;
-    Vector next = total + step<C::kRows>(a, alpha, tuned.relaxation, formOf(item), residual);
-    clampTotal(next, row.low, row.high, row.longest);
-    return next - total;
-  };
-  Vector once = Vector::Zero();
-  if (tuned.split) {
-    const Vector standing = lambda.standing + along(item, row, bodies.correction);
-    once = change(standing, lambda.once);
-    row.c -= standing;
+  Vector once = Vector::Zero(), lasting;
+  if constexpr (Force<C>) {
+    lasting = pushed<C>(s.row, a, tuned.relaxation, lambda.total) - lambda.total;
+  } else {
+    Vector c = s.row.c;
+    if (tuned.split) {
+      const Vector standing = lambda.standing + along(item, s.row, bodies.correction);
+      once = solved(item, s.row, a, tuned, standing, lambda.once) - lambda.once;
+      c -= standing;
+    }
+    lasting = solved(item, s.row, a, tuned, c, lambda.total) - lambda.total;
   }
-  const Vector lasting = change(row.c, lambda.total);
   if (!once.allFinite() || !lasting.allFinite()) return false;
   lambda.once += once;
   lambda.total += lasting;
-  displaceBodies(item, response, once, lasting, bodies);
+  displaceBodies(item, s.response, once, lasting, bodies);
   return true;
 }
 
@@ -153,13 +193,12 @@ void prepare(const C& item, Multipliers<C>& lambda, bool warm, bool split, Bodie
   lambda.once.setZero();
   if (!warm) lambda.total.setZero();
   if (!split && lambda.total.isZero(0)) return;
-  Row<C::kBodies, C::kRows> row;
-  item.evaluate({bodies.start, bodies.start, dt}, row);
-  lambda.standing = standingError<C>(row);
+  Scratch<C> s;  // of a kind with kMany bodies this allocates, and only where multipliers are kept
+  item.evaluate({bodies.start, bodies.start, dt}, s.row);
+  lambda.standing = standingError<C>(s.row);
   if (lambda.total.isZero(0)) return;
-  Response<C> response;
-  resistance(item, row, bodies.inverse, response);
-  displaceBodies(item, response, Set<C>::Vector::Zero(), lambda.total, bodies);
+  resistance(item, s.row, bodies.inverse, s.response);
+  displaceBodies(item, s.response, Set<C>::Vector::Zero(), lambda.total, bodies);
 }
 
 }  // namespace physics

@@ -14,6 +14,7 @@ namespace physics {
 
 enum class Unit {
   kNone,
+  kBody,       // ids of bodies, written as names; std::array<BodyId, 2> needs no mention
   kPoint,      // Vec3 [m], world coordinates at the start
   kDirection,  // Vec3, world coordinates at the start, normalised by the World, never zero
   kBodyPoint,  // Vec3 [m], body frame
@@ -35,7 +36,7 @@ struct Field {
   double high = std::numeric_limits<double>::infinity();
 };
 
-// What a member may be: std::array<BodyId, 2>, Vec3, std::array<Vec3, 2>, double,
+// What a member may be: std::array or std::vector of BodyId, Vec3, std::array<Vec3, 2>, double,
 // std::array<double, 2> (an ordered pair low <= high), std::optional of these, bool, Quat, or an
 // enum with a `names(E)` overload.
 enum class Form { kVector, kScalar };  // the resistance: full matrix (73) or along the error (63)

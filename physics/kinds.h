@@ -5,32 +5,57 @@
 
 #include "physics/constraints/axle.h"
 #include "physics/constraints/ball_socket.h"
+#include "physics/constraints/bend.h"
 #include "physics/constraints/cone_limit.h"
 #include "physics/constraints/distance.h"
+#include "physics/constraints/drag.h"
 #include "physics/constraints/drive.h"
+#include "physics/constraints/hardening_spring.h"
+#include "physics/constraints/link.h"
 #include "physics/constraints/motor.h"
+#include "physics/constraints/motor_torque.h"
+#include "physics/constraints/panel_drag.h"
+#include "physics/constraints/point_gravity.h"
+#include "physics/constraints/rope_length.h"
 #include "physics/constraints/spring.h"
 #include "physics/constraints/twist_limit.h"
+#include "physics/constraints/volume.h"
 
 namespace physics {
+
+template <class D, class C>
+constexpr const char* wordOf() {
+  if constexpr (requires { C::kWord; }) return C::kWord;
+  return D::kWord;
+}
 
 template <class D, class C>
 struct Kind {
   using Def = D;
   using Item = C;
-  static constexpr const char* kWord = D::kWord;
+  static constexpr const char* kWord = wordOf<D, C>();  // the definition's, or the item's own
   Set<C> set;
 };
 
-using Kinds = std::tuple<              //
-    Kind<SpringDef, Spring>,           //
-    Kind<DriveDef, Drive>,             //
-    Kind<MotorDef, Motor>,             //
-    Kind<DistanceDef, Distance>,       //
-    Kind<ConeLimitDef, ConeLimit>,     //
-    Kind<TwistLimitDef, TwistLimit>,   //
-    Kind<AxleDef, Axle>,               //
-    Kind<BallSocketDef, BallSocket>>;  //
+using Kinds = std::tuple<                       //
+    Kind<SpringDef, Spring>,                    //
+    Kind<SpringDef, VectorSpring>,              //
+    Kind<HardeningSpringDef, HardeningSpring>,  //
+    Kind<PointGravityDef, PointGravity>,        //
+    Kind<DragDef, Drag>,                        //
+    Kind<PanelDragDef, PanelDrag>,              //
+    Kind<BendDef, Bend>,                        //
+    Kind<DriveDef, Drive>,                      //
+    Kind<MotorTorqueDef, MotorTorque>,          //
+    Kind<MotorDef, Motor>,                      //
+    Kind<VolumeDef, Volume>,                    //
+    Kind<RopeLengthDef, RopeLength>,            //
+    Kind<LinkDef, Link>,                        //
+    Kind<DistanceDef, Distance>,                //
+    Kind<ConeLimitDef, ConeLimit>,              //
+    Kind<TwistLimitDef, TwistLimit>,            //
+    Kind<AxleDef, Axle>,                        //
+    Kind<BallSocketDef, BallSocket>>;           //
 
 template <class F>
 void forEachKind(Kinds& kinds, F&& f) {

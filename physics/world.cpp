@@ -23,6 +23,14 @@ bool contactsOutdated(const World::Impl& w) {
   return w.settings.contact && w.collider.outdated(w.bodies.start, w.bodies.pose);
 }
 
+// Points and links are looked at anew in every substep: their planes turn quickly.
+void findSoftContacts(World::Impl& w) {
+  if (!w.settings.contact || w.softCollider.empty()) return;
+  const auto touches =
+      w.softCollider.find(w.bodies.start, w.bodies.pose, w.settings.contact->margin);
+  startSoftContacts(touches, w.softCollider, w.bodies, w.softContacts);
+}
+
 // Where the bodies would be at the end of the whole step, so that one look serves all its substeps.
 void findContactsAhead(World::Impl& w, double remaining) {
   w.ahead.resize(w.bodies.pose.size());
@@ -71,6 +79,7 @@ void restore(World::Impl& w) {
   w.bodies.pose = w.last.pose;
   w.bodies.velocity = w.last.velocity;
   w.contacts.pairs.clear();
+  w.softContacts.clear();
   forEachKind(w.kinds, [](auto& kind) {
     for (auto& lambda : kind.set.lambda) lambda = {};
   });
@@ -81,17 +90,20 @@ void restore(World::Impl& w) {
 StepReport World::step() {
   Impl& w = *impl_;
   const double h = w.substepLength();
+  const bool isStatic = w.settings.stepping == Stepping::kStatic;
   StepReport report;
   w.last.pose = w.bodies.pose;
   w.last.velocity = w.bodies.velocity;
   for (int k = 0; k < w.settings.substeps && !report.notFinite; ++k) {
+    if (isStatic) bringToRest(w.bodies);
     moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)
-    refreshInertia(w.bodies);
+    refreshInverseMasses(w, h);
     checkFinite(w, report);
     if (report.notFinite) break;
     if (w.settings.contact && (k == 0 || contactsOutdated(w))) {
       findContactsAhead(w, w.settings.dt - (k + 1) * h);
     }
+    findSoftContacts(w);
     if (w.settings.method == Method::kDirect) prepareDirect(w);
     prepareConstraints(w, h);        // multipliers of the last substep, gaps and anchors at X^t
     solveConstraints(w, h, report);  // Delta X (52),(53)
@@ -99,6 +111,7 @@ StepReport World::step() {
     checkFinite(w, report);
     ++report.substeps;
   }
+  if (isStatic) bringToRest(w.bodies);
   if (report.notFinite) restore(w);
   w.loads.assign(w.loads.size(), Load{});
   ++w.stepCount;

@@ -3,6 +3,7 @@
 
 #include "physics/collision/collider.h"
 #include "physics/constraints/contact.h"
+#include "physics/constraints/soft_contact.h"
 #include "physics/effects/free_motion.h"
 #include "physics/kinds.h"
 #include "physics/methods/conjugate.h"
@@ -19,6 +20,8 @@ struct World::Impl {
   Kinds kinds;
   Collider collider;
   Contacts contacts;
+  SoftCollider softCollider;
+  std::vector<SoftContact> softContacts;
   Conjugate conjugate;  // scratch of the sweeps
   JointSystem joints;   // this and its scratch: the direct method only
   std::vector<JointRows> jointRows;

@@ -10,12 +10,29 @@ namespace {
 
 template <class C>
 double sizeOfError(const C& item, const World::Impl& w) {
+  if constexpr (requires { item.relativeError(w.bodies.pose); }) {
+    return item.relativeError(w.bodies.pose);
+  }
   Row<C::kBodies, C::kRows> row;
   item.evaluate({w.bodies.pose, w.bodies.start, w.substepLength()}, row);
   const double size = row.c.norm();
   if (std::isfinite(row.high) && row.high <= 0) return std::max(row.c[0], 0.0);  // c <= 0 holds
   if (std::isfinite(row.low) && row.low >= 0) return std::max(-row.c[0], 0.0);   // c >= 0 holds
   return size;
+}
+
+template <class K, class C>
+JointReport reportOf(const C& item, const World::Impl& w) {
+  const Pose &a = w.bodies.pose[item.bodies[0]], &b = w.bodies.pose[item.bodies[1]];
+  JointReport joint{K::kWord, item.bodies[0], item.bodies[1], a.x, b.x, Vec3::Zero(), 0};
+  if constexpr (requires { item.anchors; }) {
+    joint.pointA = a.x + a.q * item.anchors[0];
+    joint.pointB = b.x + b.q * item.anchors[1];
+  }
+  if constexpr (requires { item.axisI; }) joint.axis = a.q * item.axisI;
+  if constexpr (requires { item.axes; }) joint.axis = a.q * item.axes[0];
+  if constexpr (canStand<C>()) joint.error = sizeOfError(item, w);
+  return joint;
 }
 
 }  // namespace
@@ -44,6 +61,12 @@ void World::setDriveTarget(int drive, const Quat& target) {
   items[drive].target = target.normalized();
 }
 
+Vec3 World::driveError(int drive) const {
+  const auto& items = std::get<Kind<DriveDef, Drive>>(impl_->kinds).set.items;
+  require(drive >= 0 && drive < static_cast<int>(items.size()), "no such drive");
+  return items[drive].error(impl_->bodies.pose);
+}
+
 Vec3 World::driveTorque(int drive) const {
   const auto& set = std::get<Kind<DriveDef, Drive>>(impl_->kinds).set;
   require(drive >= 0 && drive < static_cast<int>(set.items.size()), "no such drive");
@@ -55,13 +78,16 @@ std::vector<KindError> World::constraintErrors() const {
   std::vector<KindError> errors;
   forEachKind(impl_->kinds, [&](const auto& kind) {
     using K = std::decay_t<decltype(kind)>;
-    if (isForce<typename K::Item>() || kind.set.items.empty()) return;
-    KindError error{K::kWord, K::Item::kUnit, 0, static_cast<int>(kind.set.items.size()), 0};
-    for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
-      const double size = sizeOfError(kind.set.items[k], *impl_);
-      if (!(size <= error.largest)) error.largest = size, error.worst = static_cast<int>(k);
+    if constexpr (canStand<typename K::Item>()) {
+      if (kind.set.items.empty()) return;
+      KindError error{K::kWord, K::Item::kUnit, 0, 0, static_cast<int>(kind.set.items.size()), 0};
+      for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
+        const double size = sizeOfError(kind.set.items[k], *impl_);
+        error.sum += size;
+        if (!(size <= error.largest)) error.largest = size, error.worst = static_cast<int>(k);
+      }
+      errors.push_back(error);
     }
-    errors.push_back(error);
   });
   return errors;
 }
@@ -80,25 +106,20 @@ std::vector<ContactReport> World::contacts() const {
       reports.push_back({pair.a, pair.b, pointOf(pair, k, pose), n, gap, impulse});
     }
   }
+  for (const SoftContact& c : impl_->softContacts) {
+    const Vec3 n = pose[c.body].q * c.normal;
+    reports.push_back({c.from, c.body, pointOf(c, pose) - c.radius * n, n, gapOf(c, pose),
+                       (c.normalTotal * n + c.frictionTotal) / h});
+  }
   return reports;
 }
 
 std::vector<JointReport> World::joints() const {
   std::vector<JointReport> reports;
-  const auto& pose = impl_->bodies.pose;
   forEachKind(impl_->kinds, [&](const auto& kind) {
     using K = std::decay_t<decltype(kind)>;
-    for (const auto& item : kind.set.items) {
-      const Pose &a = pose[item.bodies[0]], &b = pose[item.bodies[1]];
-      JointReport joint{K::kWord, item.bodies[0], item.bodies[1], a.x, b.x, Vec3::Zero(), 0};
-      if constexpr (requires { item.anchors; }) {
-        joint.pointA = a.x + a.q * item.anchors[0];
-        joint.pointB = b.x + b.q * item.anchors[1];
-      }
-      if constexpr (requires { item.axisI; }) joint.axis = a.q * item.axisI;
-      if constexpr (requires { item.axes; }) joint.axis = a.q * item.axes[0];
-      if constexpr (!isForce<typename K::Item>()) joint.error = sizeOfError(item, *impl_);
-      reports.push_back(joint);
+    if constexpr (K::Item::kBodies == 2) {
+      for (const auto& item : kind.set.items) reports.push_back(reportOf<K>(item, *impl_));
     }
   });
   return reports;
@@ -111,6 +132,9 @@ double World::largestOverlap() const {
       largest = std::max(largest, -gapOf(pair, k, impl_->bodies.pose));
     }
   }
+  for (const SoftContact& contact : impl_->softContacts) {
+    largest = std::max(largest, -gapOf(contact, impl_->bodies.pose));
+  }
   return largest;
 }
 
@@ -119,17 +143,19 @@ int World::contactCount() const {
   for (const ContactPair& pair : impl_->contacts.pairs) {
     for (int k = 0; k < pair.count; ++k) count += pair.points[k].normalTotal > 0;
   }
+  for (const SoftContact& contact : impl_->softContacts) count += contact.normalTotal > 0;
   return count;
 }
 
 double World::springEnergy() const {
   double energy = 0;
-  for (const Spring& s : std::get<Kind<SpringDef, Spring>>(impl_->kinds).set.items) {
-    energy += s.energy(impl_->bodies.pose);
-  }
-  for (const Drive& d : std::get<Kind<DriveDef, Drive>>(impl_->kinds).set.items) {
-    energy += 0.5 * d.stiffness * d.error(impl_->bodies.pose).squaredNorm();
-  }
+  forEachKind(impl_->kinds, [&](const auto& kind) {
+    for (const auto& item : kind.set.items) {
+      if constexpr (requires { item.energy(impl_->bodies.pose); }) {
+        energy += item.energy(impl_->bodies.pose);
+      }
+    }
+  });
   return energy;
 }
 

@@ -31,7 +31,19 @@ double kindError(const Sample& s) {
   return largestError(s, {Def::kWord});
 }
 
-double jointError(const Sample& s) { return largestError(s, {"ball_socket", "distance"}); }
+double jointError(const Sample& s) {
+  return largestError(s, {"ball_socket", "distance", "link", "rope_length"});
+}
+
+// The sum of |c| over the links: how far off a rope or a cloth is as a whole.
+double linkErrorSum(const Sample& s) {
+  for (const physics::KindError& error : s.now.errors) {
+    if (error.kind == physics::LinkDef::kWord) return error.sum;
+  }
+  return 0;
+}
+
+double gradientError(const Sample& s) { return s.simulation.world().gradientError(); }
 
 // Energy that a loss or a gain is measured against.
 double energyScale(const Sample& s) { return std::max(std::abs(s.start.total), s.largestKinetic); }
@@ -102,12 +114,21 @@ double fallen(const Sample& s) {
 
 constexpr About kScene = About::kScene, kEach = About::kEachBody, kGroup = About::kGroup;
 constexpr Metric kMetrics[] = {
-    {"joint_error", "m", "the largest gap of a ball_socket or error of a distance", kScene,
-     jointError, nullptr},
+    {"joint_error", "m", "the largest gap of a ball_socket or error of a distance, link or rope",
+     kScene, jointError, nullptr},
     {"ball_socket_error", "m", "the largest gap of a ball_socket", kScene,
      kindError<physics::BallSocketDef>, nullptr},
     {"distance_error", "m", "the largest error of a distance", kScene,
      kindError<physics::DistanceDef>, nullptr},
+    {"link_error", "m", "the largest error of a link", kScene, kindError<physics::LinkDef>,
+     nullptr},
+    {"link_error_sum", "m", "the sum of the errors of all links", kScene, linkErrorSum, nullptr},
+    {"rope_length_error", "m", "the largest error of a rope_length", kScene,
+     kindError<physics::RopeLengthDef>, nullptr},
+    {"volume_error", "", "the largest |V/V0 - 1| of a volume", kScene,
+     kindError<physics::VolumeDef>, nullptr},
+    {"gradient_error", "", "the largest difference of a gradient from differences, relative",
+     kScene, gradientError, nullptr},
     {"axle_error", "rad", "the largest angle an axle is open", kScene, kindError<physics::AxleDef>,
      nullptr},
     {"cone_limit_error", "rad", "the largest angle beyond a cone_limit", kScene,

@@ -9,11 +9,11 @@ namespace {
 constexpr const char* kAlternatives[][2] = {{"at", "anchors"}, {"axis", "axes"}};
 
 void checkMovable(const TableReader& reader, const Recipe& recipe,
-                  const std::array<physics::BodyId, 2>& bodies) {
+                  std::span<const physics::BodyId> bodies) {
   for (const physics::BodyId body : bodies) {
     if (recipe.trial().world.bodies().motion[body] == physics::Motion::kDynamic) return;
   }
-  reader.failAt("bodies", "expected at least one body that can move");
+  reader.failAt(reader.has("body") ? "body" : "bodies", "expected at least one body that can move");
 }
 
 template <class Def>
@@ -41,9 +41,15 @@ constexpr Word word() {
 }
 
 constexpr Word kConstraints[] = {
-    word<physics::BallSocketDef>(), word<physics::AxleDef>(),       word<physics::HingeDef>(),
-    word<physics::ConeLimitDef>(),  word<physics::TwistLimitDef>(), word<physics::DistanceDef>(),
-    word<physics::SpringDef>(),     word<physics::DriveDef>(),      word<physics::MotorDef>(),
+    word<physics::BallSocketDef>(),  word<physics::AxleDef>(),
+    word<physics::HingeDef>(),       word<physics::ConeLimitDef>(),
+    word<physics::TwistLimitDef>(),  word<physics::DistanceDef>(),
+    word<physics::LinkDef>(),        word<physics::RopeLengthDef>(),
+    word<physics::VolumeDef>(),      word<physics::SpringDef>(),
+    word<physics::DriveDef>(),       word<physics::MotorDef>(),
+    word<physics::BendDef>(),        word<physics::HardeningSpringDef>(),
+    word<physics::DragDef>(),        word<physics::PanelDragDef>(),
+    word<physics::MotorTorqueDef>(), word<physics::PointGravityDef>(),
 };
 
 }  // namespace

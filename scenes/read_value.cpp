@@ -1,6 +1,7 @@
 // One function per type that a scene file can hold; each checks type, range and finiteness.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenes/table_reader.h"
@@ -32,6 +33,7 @@ const char* unitName(Unit unit) {
     case Unit::kRadianPerSecond:
       return " [rad/s]";
     case Unit::kNone:
+    case Unit::kBody:
     case Unit::kDirection:
       break;
   }
@@ -88,6 +90,16 @@ physics::BodyId bodyNamed(const Value& value, const Spot& spot) {
        fmt::format("{}: no body '{}'{}", word, value.text, didYouMean(value.text, names)));
 }
 
+void readBodies(const Value& value, const Spot& spot, std::span<physics::BodyId> out) {
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = bodyNamed(value.items[i], spot);
+    if (std::find(out.begin(), out.begin() + i, out[i]) == out.begin() + i) continue;
+    fail(spot.context, value.place,
+         fmt::format("{}: expected {}different bodies, got '{}' twice", spot.key,
+                     out.size() == 2 ? "two " : "", value.items[i].text));
+  }
+}
+
 }  // namespace
 
 void readValue(const Value& value, const Spot& spot, bool& out) {
@@ -142,19 +154,34 @@ void readValue(const Value& value, const Spot& spot, physics::Quat& out) {
   out = physics::Quat(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
 }
 
+void readValue(const Value& value, const Spot& spot, std::array<physics::BodyId, 1>& out) {
+  out[0] = bodyNamed(value, spot);
+}
+
 void readValue(const Value& value, const Spot& spot, std::array<physics::BodyId, 2>& out) {
   arrayOf(2, value, spot, "the names of two bodies");
-  for (int i = 0; i < 2; ++i) out[i] = bodyNamed(value.items[i], spot);
-  if (out[0] == out[1]) {
-    fail(spot.context, value.place,
-         fmt::format("{}: expected two different bodies, got '{}' twice", spot.key,
-                     value.items[0].text));
-  }
+  readBodies(value, spot, out);
 }
 
 void readValue(const Value& value, const Spot& spot, std::array<int, 3>& out) {
-  arrayOf(3, value, spot, "[nx, ny, nz]");
+  const bool bodies = spot.field.unit == physics::Unit::kBody;
+  arrayOf(3, value, spot, bodies ? "the names of three bodies" : "[nx, ny, nz]");
+  if (bodies) return readBodies(value, spot, out);
   for (int i = 0; i < 3; ++i) readValue(value.items[i], spot, out[i]);
+}
+
+void readValue(const Value& value, const Spot& spot, std::array<physics::BodyId, 4>& out) {
+  arrayOf(4, value, spot, "the names of four bodies");
+  readBodies(value, spot, out);
+}
+
+void readValue(const Value& value, const Spot& spot, std::vector<int>& out) {
+  const bool bodies = spot.field.unit == physics::Unit::kBody;
+  if (!value.isArray()) failExpected(spot, value, bodies ? "the names of bodies" : "an array");
+  out.resize(value.items.size());
+  if (bodies && out.size() < 2) failExpected(spot, value, "the names of at least two bodies");
+  if (bodies) return readBodies(value, spot, out);
+  for (std::size_t i = 0; i < out.size(); ++i) readValue(value.items[i], spot, out[i]);
 }
 
 void readValue(const Value& value, const Spot& spot, std::array<double, 2>& out) {

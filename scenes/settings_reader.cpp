@@ -14,7 +14,17 @@ using physics::Field;
 using physics::Unit;
 
 constexpr const char* kMethods[] = {"nonlinear_gauss_seidel", "direct"};
-constexpr const char* kSteppings[] = {"paper"};
+constexpr const char* kSteppings[] = {"paper", "static"};
+constexpr const char* kRegularisations[] = {"compliance", "damping"};
+constexpr const char* kInertias[] = {"plain", "spinning"};
+constexpr const char* kRefreshes[] = {"substep", "iteration"};
+
+// The index of a word among `choices`; `otherwise` where absent.
+int readWord(TableReader& reader, const char* key, std::span<const char* const> choices,
+             int otherwise) {
+  const Value* value = reader.take(key);
+  return value == nullptr ? otherwise : readChoice(*value, reader.spot({key}), choices);
+}
 
 void readSimulation(TableReader& reader, Scene& scene) {
   physics::Settings& settings = scene.settings;
@@ -28,14 +38,12 @@ void readSimulation(TableReader& reader, Scene& scene) {
   reader(Field{"warm_start"}, settings.warmStart);
   reader(Field{"warm_start_joints"}, settings.warmStartJoints);
   reader(Field{"seed"}, scene.seed);
-  if (const Value* method = reader.take("method")) {
-    const int choice = readChoice(*method, reader.spot({"method"}), kMethods);
-    settings.method = static_cast<physics::Method>(choice);
-  }
-  if (const Value* stepping = reader.take("stepping")) {
-    const int choice = readChoice(*stepping, reader.spot({"stepping"}), kSteppings);
-    settings.stepping = static_cast<physics::Stepping>(choice);
-  }
+  settings.method = static_cast<physics::Method>(readWord(reader, "method", kMethods, 0));
+  settings.stepping = static_cast<physics::Stepping>(readWord(reader, "stepping", kSteppings, 0));
+  settings.regularisationForm = static_cast<physics::Regularisation>(
+      readWord(reader, "regularisation_form", kRegularisations, 0));
+  settings.spinInertia = readWord(reader, "inertia", kInertias, 0) == 1;
+  settings.refreshInertia = readWord(reader, "inertia_refresh", kRefreshes, 1) == 1;
 }
 
 void readContact(TableReader& reader, physics::Settings& settings) {

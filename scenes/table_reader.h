@@ -39,8 +39,11 @@ void readValue(const Value& value, const Spot& spot, double& out);
 void readValue(const Value& value, const Spot& spot, std::string& out);
 void readValue(const Value& value, const Spot& spot, physics::Vec3& out);
 void readValue(const Value& value, const Spot& spot, physics::Quat& out);
+void readValue(const Value& value, const Spot& spot, std::array<physics::BodyId, 1>& out);
 void readValue(const Value& value, const Spot& spot, std::array<physics::BodyId, 2>& out);
-void readValue(const Value& value, const Spot& spot, std::array<int, 3>& out);
+void readValue(const Value& value, const Spot& spot, std::array<int, 3>& out);  // or bodies
+void readValue(const Value& value, const Spot& spot, std::array<physics::BodyId, 4>& out);
+void readValue(const Value& value, const Spot& spot, std::vector<int>& out);  // or bodies
 void readValue(const Value& value, const Spot& spot, std::array<double, 2>& out);
 void readValue(const Value& value, const Spot& spot, std::array<physics::Vec3, 2>& out);
 void readValue(const Value& value, const Spot& spot, physics::Friction& out);

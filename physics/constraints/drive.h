@@ -1,9 +1,8 @@
 // Drive: a damped angular spring towards a target orientation, with a torque limit; a muscle.
 //   dtheta = log(q_j target^-1 q_i^-1), the turn of body j past its target against body i [rad]
 //   (129) tau = -k dtheta - nu d(dtheta)/dt on body j, opposite on i, |tau| <= tau_max (128),(132)
-//   as rows: alpha = 1/(k h^2 + nu h), c = alpha (k h^2 dtheta + nu h (turn since t)), J = -1, +1
-//   (130) k = nu = 0 is no row at all. At |dtheta| = pi the shorter way is ambiguous and one is
-//   taken.
+//   as a force: c = dtheta, K = k h^2 + nu h, J = -1, +1                               (130)
+//   At |dtheta| = pi the shorter way is ambiguous and one is taken.
 #pragma once
 
 #include "physics/constraint.h"
@@ -34,14 +33,14 @@ struct DriveDef {
 struct Drive {
   static constexpr int kBodies = 2, kRows = 3;
   static constexpr bool kLinear = false;
-  static constexpr bool kForce = true;  // no error that could stand
-  static constexpr const char* kUnit = "N m";
+  static constexpr const char* kUnit = "rad";
   std::array<BodyId, 2> bodies{};
   Quat target = Quat::Identity();
   double stiffness = 20, damping = 0.2, maxTorque = std::numeric_limits<double>::infinity();
 
   Vec3 error(std::span<const Pose> pose) const;  // dtheta, world frame [rad]
-  void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
+  void evaluate(const Configuration& x, Push<kBodies, kRows>& push) const;
+  double energy(std::span<const Pose> pose) const;  // J, as if without a torque limit
 };
 
 }  // namespace physics

@@ -5,9 +5,7 @@ namespace physics {
 
 void Motor::evaluate(const Configuration& x, Row<kBodies, kRows>& row) const {
   const Vec3 n = x.now[bodies[0]].q * axisI;
-  const Vec3 turned = logarithm(x.now[bodies[1]].q * x.start[bodies[1]].q.conjugate()) -
-                      logarithm(x.now[bodies[0]].q * x.start[bodies[0]].q.conjugate());
-  row.c[0] = n.dot(turned) - speed * x.dt;
+  row.c[0] = n.dot(turnSince(x, bodies)) - speed * x.dt;
   row.angular[0] = -n.transpose();
   row.angular[1] = n.transpose();
   row.high = maxTorque * x.dt * x.dt;

@@ -25,10 +25,16 @@ struct MotorDef {
   }
 };
 
+// The turn of the second body against the first since the start of the substep, world frame [rad].
+inline Vec3 turnSince(const Configuration& x, const std::array<BodyId, 2>& bodies) {
+  return logarithm(x.now[bodies[1]].q * x.start[bodies[1]].q.conjugate()) -
+         logarithm(x.now[bodies[0]].q * x.start[bodies[0]].q.conjugate());
+}
+
 struct Motor {
   static constexpr int kBodies = 2, kRows = 1;
   static constexpr bool kLinear = false;
-  static constexpr bool kForce = true;  // no error that could stand
+  static constexpr bool kOfVelocity = true;
   static constexpr const char* kUnit = "rad";
   std::array<BodyId, 2> bodies{};
   Vec3 axisI = Vec3::UnitX();  // body frame of i

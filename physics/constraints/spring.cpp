@@ -1,36 +1,40 @@
 // Spring and damper, (108)-(127).
 #include "physics/constraints/spring.h"
 
+#include "physics/constraints/between.h"
+
 namespace physics {
-namespace {
 
-Vec3 between(const Spring& spring, std::span<const Pose> pose) {
-  const Pose &i = pose[spring.bodies[0]], &j = pose[spring.bodies[1]];
-  return (i.x + i.q * spring.anchors[0]) - (j.x + j.q * spring.anchors[1]);
-}
-
-}  // namespace
-
-void Spring::evaluate(const Configuration& x, Row<kBodies, kRows>& row) const {
+void Spring::evaluate(const Configuration& x, Push<kBodies, kRows>& push) const {
   const double kh2 = stiffness * x.dt * x.dt, nuh = damping * x.dt;
-  const Vec3 dp = between(*this, x.now);
+  const Vec3 dp = between(x.now, bodies, anchors);
   const double distance = dp.norm();
-  row.active = kh2 + nuh > 0 && distance > 1e-12;
-  if (!row.active) return;
-  const Vec3 d = dp / distance;
-  row.alpha = 1 / (kh2 + nuh);
-  row.c[0] = row.alpha *
-             (kh2 * (distance - restLength) + nuh * (distance - between(*this, x.start).norm()));
-  const Vec3 ri = x.now[bodies[0]].q * anchors[0], rj = x.now[bodies[1]].q * anchors[1];
-  row.linear[0] = d.transpose();
-  row.linear[1] = -d.transpose();
-  row.angular[0] = ri.cross(d).transpose();
-  row.angular[1] = -rj.cross(d).transpose();
+  push.active = kh2 + nuh > 0 && distance > kCoincident;
+  if (!push.active) return;
+  push.c[0] = distance;
+  push.f[0] =
+      -kh2 * (distance - restLength) - nuh * (distance - between(x.start, bodies, anchors).norm());
+  push.k(0, 0) = kh2 + nuh;
+  gradientAlong(dp / distance, x.now, bodies, anchors, push);
 }
 
 double Spring::energy(std::span<const Pose> pose) const {
-  const double stretch = between(*this, pose).norm() - restLength;
+  const double stretch = between(pose, bodies, anchors).norm() - restLength;
   return 0.5 * stiffness * stretch * stretch;
+}
+
+void VectorSpring::evaluate(const Configuration& x, Push<kBodies, kRows>& push) const {
+  const double kh2 = stiffness * x.dt * x.dt, nuh = damping * x.dt;
+  push.active = kh2 + nuh > 0;
+  if (!push.active) return;
+  push.c = between(x.now, bodies, anchors);
+  push.f = -kh2 * push.c - nuh * (push.c - between(x.start, bodies, anchors));
+  push.k = (kh2 + nuh) * Mat3::Identity();
+  gradientOfGap(x.now, bodies, anchors, push);
+}
+
+double VectorSpring::energy(std::span<const Pose> pose) const {
+  return 0.5 * stiffness * between(pose, bodies, anchors).squaredNorm();
 }
 
 }  // namespace physics

@@ -1,7 +1,9 @@
-// Spring and damper between two points, along the line that joins them.
-//   f = -k (|dp| - l) - nu d|dp|/dt   (108) projected on d = dp/|dp|, so that it turns nothing
-//   as a row: alpha = 1/(k h^2 + nu h), c = alpha (k h^2 (|dp| - l) + nu h (|dp| - |dp at t|))
-//   (123)=(127) k = nu = 0 is no row at all; dp = 0 has no direction and no force.
+// Spring and damper between two points, (108)-(127).
+//   scalar  c = |dp| [m], along d = dp/|dp|: f = -k (c - l) - nu dc/dt, so that it turns nothing
+//   vector  c = dp [m], rest length zero:     f = -k dp - nu d(dp)/dt                        (108)
+//   f [N] acts on body i at p_i, opposite on j; K = k h^2 + nu h is alpha of (115). The damper of
+//   the vector form turns the pair by dp x f, NOTES 3.7. dp = 0 has no direction: the scalar form
+//   does nothing there.
 #pragma once
 
 #include "physics/constraint.h"
@@ -16,6 +18,7 @@ struct SpringDef {
   double stiffness = 100;                                   // N/m
   double damping = 0;                                       // N s/m
   std::optional<double> restLength;                         // m; absent: as at the start
+  std::optional<Form> form;  // absent: the vector form where the rest length is zero
   bool collide = true;
   Tuning tuning;
   template <class V, class D>
@@ -25,6 +28,7 @@ struct SpringDef {
     v(Field{"stiffness", Unit::kNewtonPerMetre, true, 0}, d.stiffness);
     v(Field{"damping", Unit::kNewtonSecondPerMetre, false, 0}, d.damping);
     v(Field{"rest_length", Unit::kMetre, false, 0}, d.restLength);
+    v(Field{"form"}, d.form);
     v(Field{"collide"}, d.collide);
     Tuning::fields(v, d.tuning);
   }
@@ -33,13 +37,25 @@ struct SpringDef {
 struct Spring {
   static constexpr int kBodies = 2, kRows = 1;
   static constexpr bool kLinear = true;
-  static constexpr bool kForce = true;  // no error that could stand
-  static constexpr const char* kUnit = "N";
+  static constexpr const char* kUnit = "m";
   std::array<BodyId, 2> bodies{};
   std::array<Vec3, 2> anchors{Vec3::Zero(), Vec3::Zero()};
   double stiffness = 100, damping = 0, restLength = 1;
 
-  void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
+  void evaluate(const Configuration& x, Push<kBodies, kRows>& push) const;
+  double energy(std::span<const Pose> pose) const;  // J
+};
+
+struct VectorSpring {
+  static constexpr const char* kWord = "vector_spring";
+  static constexpr int kBodies = 2, kRows = 3;
+  static constexpr bool kLinear = true;
+  static constexpr const char* kUnit = "m";
+  std::array<BodyId, 2> bodies{};
+  std::array<Vec3, 2> anchors{Vec3::Zero(), Vec3::Zero()};
+  double stiffness = 100, damping = 0;
+
+  void evaluate(const Configuration& x, Push<kBodies, kRows>& push) const;
   double energy(std::span<const Pose> pose) const;  // J
 };
 

@@ -9,6 +9,10 @@
 namespace physics {
 namespace {
 
+// Beyond this turn per substep n . M~^-1 n may become negative: a constraint would pull the wrong
+// way. NOTES 3.2
+constexpr double kLargestTurn = 0.2;  // rad
+
 bool isotropic(const Vec3& inertia) {
   return inertia.x() == inertia.y() && inertia.y() == inertia.z();
 }
@@ -104,11 +108,30 @@ void finishVelocities(Bodies& bodies, double dt) {
 }
 
 void refreshInertia(Bodies& bodies) {
-  for (int i = 0; i < bodies.size(); ++i) {
-    const Vec3& inverse = bodies.inverseInertia[i];
-    if (isotropic(inverse)) continue;  // constant
+  for (const BodyId i : bodies.anisotropic) {
     const Mat3 rotation = bodies.pose[i].q.toRotationMatrix();
-    bodies.inverse[i].inertia = rotation * inverse.asDiagonal() * rotation.transpose();
+    bodies.inverse[i].inertia =
+        rotation * bodies.inverseInertia[i].asDiagonal() * rotation.transpose();
+  }
+}
+
+// The second term is half that of (65), because velocities come from the quaternion's logarithm
+// and not from (45). NOTES 3.2
+void refreshSpinInertia(Bodies& bodies, double dt) {
+  refreshInertia(bodies);
+  for (const BodyId i : bodies.anisotropic) {
+    const Vec3 turn = dt * bodies.velocity[i].w;
+    if (bodies.motion[i] != Motion::kDynamic || turn.norm() > kLargestTurn) continue;
+    const Mat3 rotation = bodies.pose[i].q.toRotationMatrix();
+    const Mat3 inertia = rotation * bodies.inertia[i].asDiagonal() * rotation.transpose();
+    const Mat3 spinning = inertia - skew(inertia * turn) + 0.5 * inertia * skew(turn);
+    bodies.inverse[i].inertia = spinning.inverse();
+  }
+}
+
+void bringToRest(Bodies& bodies) {
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies.motion[i] == Motion::kDynamic) bodies.velocity[i] = {};
   }
 }
 

@@ -38,4 +38,10 @@ void finishVelocities(Bodies& bodies, double dt);
 // R I^-1 R^T at the present poses.
 void refreshInertia(Bodies& bodies);
 
+// The inverse of M~ (36),(65) in its place, for bodies that turn by no more than 0.2 rad a substep.
+void refreshSpinInertia(Bodies& bodies, double dt);
+
+// Takes all motion from dynamic bodies.
+void bringToRest(Bodies& bodies);
+
 }  // namespace physics

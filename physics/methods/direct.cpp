@@ -13,13 +13,20 @@ namespace {
 // NOTES 3.5
 constexpr double kRedundancy = 1e-12;
 
+template <class C>
+constexpr bool isJoint() {
+  return !Force<C> && C::kBodies == 2;
+}
+
 template <class F>
 void forEachJoint(World::Impl& world, F&& f) {
   std::size_t next = 0;
   forEachKind(world.kinds, [&](auto& kind) {
     auto& set = kind.set;
-    for (std::size_t k = 0; k < set.items.size(); ++k) {
-      if (isEquality(set.items[k])) f(set.items[k], set.lambda[k], set.tuned[k], next++);
+    if constexpr (isJoint<typename std::decay_t<decltype(kind)>::Item>()) {
+      for (std::size_t k = 0; k < set.items.size(); ++k) {
+        if (isEquality(set.items[k])) f(set.items[k], set.lambda[k], set.tuned[k], next++);
+      }
     }
   });
 }
@@ -36,7 +43,7 @@ JointRows rowsOf(const C& item, const Bodies& bodies, double dt) {
     joint.linear[b].setZero();
     joint.angular[b].setZero();
     if constexpr (C::kLinear) joint.linear[b].template topRows<C::kRows>() = row.linear[b];
-    joint.angular[b].template topRows<C::kRows>() = row.angular[b];
+    if constexpr (isAngular<C>()) joint.angular[b].template topRows<C::kRows>() = row.angular[b];
   }
   return joint;
 }
@@ -51,7 +58,7 @@ void load(const C& item, const JointRows& joint, const Vec3& lambda, const Bodie
     const Vec3 force = joint.linear[b].transpose() * lambda;
     body.impulse += force;
     body.torque += joint.angular[b].transpose() * lambda;
-    if constexpr (C::kLinear) {
+    if constexpr (requires { item.anchors; }) {
       const Vec3 arm = bodies.pose[item.bodies[b]].q * item.anchors[b];
       const double length2 = arm.squaredNorm(), along = force.dot(arm);
       if (along > 0) {

@@ -12,13 +12,23 @@ void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId
 
 bool isDirect(const World::Impl& world) { return world.settings.method == Method::kDirect; }
 
+template <class C>
+bool solveOne(Set<C>& set, std::size_t k, Bodies& bodies, double dt) {
+  if constexpr (C::kBodies == kMany) {
+    return solve(set.items[k], set.lambda[k], set.tuned[k], bodies, dt, set.scratch);
+  } else {
+    Scratch<C> scratch;
+    return solve(set.items[k], set.lambda[k], set.tuned[k], bodies, dt, scratch);
+  }
+}
+
 template <class K>
 bool sweepKind(K& kind, Bodies& bodies, double dt, bool joints, StepReport& report) {
   auto& set = kind.set;
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     if (!joints && isEquality(set.items[k])) continue;
     ++report.constraintEvaluations;
-    if (solve(set.items[k], set.lambda[k], set.tuned[k], bodies, dt)) continue;
+    if (solveOne(set, k, bodies, dt)) continue;
     nameCulprit(report, K::kWord, k, set.items[k].bodies[0]);
     return false;
   }
@@ -40,6 +50,19 @@ bool sweepContacts(World::Impl& world, double dt, bool backward, StepReport& rep
       return false;
     }
     report.residual = std::max(report.residual, error);
+  }
+  return true;
+}
+
+bool sweepSoftContacts(World::Impl& world, double dt, StepReport& report) {
+  if (world.softContacts.empty()) return true;
+  const double allowance = world.settings.contact->maxSeparationSpeed * dt;
+  report.constraintEvaluations += static_cast<std::int64_t>(world.softContacts.size());
+  for (std::size_t k = 0; k < world.softContacts.size(); ++k) {
+    SoftContact& contact = world.softContacts[k];
+    if (solve(contact, world.bodies, world.settings.relaxation, allowance)) continue;
+    nameCulprit(report, "soft contact", k, contact.body);
+    return false;
   }
   return true;
 }
@@ -69,6 +92,10 @@ bool onlyContacts(const World::Impl& world) {
 
 }  // namespace
 
+void refreshInverseMasses(World::Impl& world, double dt) {
+  world.settings.spinInertia ? refreshSpinInertia(world.bodies, dt) : refreshInertia(world.bodies);
+}
+
 void prepareConstraints(World::Impl& world, double dt) {
   const bool warm = world.settings.warmStartJoints;
   forEachKind(world.kinds, [&](auto& kind) {
@@ -90,6 +117,7 @@ bool sweep(World::Impl& world, double dt, bool backward, StepReport& report) {
   forEachKind(world.kinds, [&](auto& kind) {
     finite = finite && sweepKind(kind, world.bodies, dt, joints, report);
   });
+  finite = finite && sweepSoftContacts(world, dt, report);
   return finite && sweepContacts(world, dt, backward, report);
 }
 
@@ -103,7 +131,7 @@ void iterate(World::Impl& world, double dt, StepReport& report,
     if (accelerated && extra > 0 && extra % 2 == 0) {
       world.conjugate.accelerate(world.contacts, world.bodies);
     }
-    if (k > 0) refreshInertia(world.bodies);
+    if (k > 0 && world.settings.refreshInertia) refreshInverseMasses(world, dt);
     if (beforeSweep && !beforeSweep()) return;
     if (!sweep(world, dt, extra > 0 && extra % 2 == 1, report)) return;
     ++report.iterations;

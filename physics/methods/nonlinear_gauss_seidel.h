@@ -8,6 +8,9 @@
 
 namespace physics {
 
+// Inverse inertia at the present poses: of M, or of M~ where the World asks for it.
+void refreshInverseMasses(World::Impl& world, double dt);
+
 // First guess: the multipliers of the last substep, or zero where the World does not warm start.
 void prepareConstraints(World::Impl& world, double dt);
 

@@ -34,8 +34,9 @@ Conflict ours59() {
   const BallSocket second{{1, 0}, {Vec3::Zero(), Vec3(1, 0, 0)}};
   Multipliers<BallSocket> lambda1, lambda2;
   for (int k = 0; k < 200; ++k) {
-    solve(first, lambda1, {1, 0.5, false}, bodies, 1);
-    solve(second, lambda2, {1, 0.5, false}, bodies, 1);
+    Scratch<BallSocket> scratch;
+    solve(first, lambda1, {1, 0.5}, bodies, 1, scratch);
+    solve(second, lambda2, {1, 0.5}, bodies, 1, scratch);
   }
   return {bodies.pose[1].x.x(), lambda1.total.x(), lambda2.total.x()};
 }
@@ -74,7 +75,8 @@ double ourMu58(double unit) {
   Bodies bodies = levers(unit);
   const double c = rowOf(rod(unit), bodies).c[0];
   Multipliers<Distance> lambda;
-  solve(rod(unit), lambda, {1, 0.5, false}, bodies, 1);
+  Scratch<Distance> scratch;
+  solve(rod(unit), lambda, {1, 0.5}, bodies, 1, scratch);
   return -lambda.total[0] / c;
 }
 

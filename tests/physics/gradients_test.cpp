@@ -23,10 +23,11 @@ template <class Item>
 double deviation(const Item& item, const Bodies& bodies) {
   const auto row = rowOf(item, bodies);
   double worst = 0, largest = 0;
-  for (int b = 0; b < 2; ++b) {
+  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     for (int k = 0; k < 6; ++k) {
       const auto& block = k < 3 ? row.linear[b] : row.angular[b];
-      const auto wrong = (block.col(k % 3) - difference(item, bodies, b, k)).eval();
+      const auto wrong =
+          (block.col(k % 3) - difference(item, bodies, static_cast<int>(b), k)).eval();
       worst = std::max(worst, wrong.cwiseAbs().maxCoeff());
       largest = std::max(largest, block.col(k % 3).cwiseAbs().maxCoeff());
     }
@@ -42,7 +43,7 @@ TYPED_TEST(Gradient, IsTheDerivativeOfTheError) {
   using Item = typename TypeParam::Item;
   Random random(1);
   for (int n = 0; n < 300; ++n) {
-    Bodies bodies = randomPair(random);
+    Bodies bodies = randomBodies(random, countOf<Item>());
     const Item item = Case<Item>::make(random, bodies);
     Case<Item>::toGradient(item, random, bodies);
     ASSERT_LT(deviation(item, bodies), 1e-7) << "configuration " << n;
@@ -95,12 +96,14 @@ template <class Item>
 bool isFinite(const Item& item, Bodies bodies) {
   const auto row = rowOf(item, bodies);
   bool finite = row.c.allFinite();
-  for (int b = 0; b < 2; ++b) {
-    finite = finite && row.linear[b].allFinite() && row.angular[b].allFinite();
-  }
+  for (const auto& block : row.linear) finite = finite && block.allFinite();
+  for (const auto& block : row.angular) finite = finite && block.allFinite();
   Multipliers<Item> lambda;
-  return finite && visit(item, lambda, bodies) && lambda.total.allFinite() &&
-         bodies.pose[0].q.coeffs().allFinite() && bodies.pose[1].q.coeffs().allFinite();
+  finite = finite && visit(item, lambda, bodies) && lambda.total.allFinite();
+  for (const Pose& pose : bodies.pose) {
+    finite = finite && pose.x.allFinite() && pose.q.coeffs().allFinite();
+  }
+  return finite;
 }
 
 TEST(DegenerateGradient, IsFiniteForParallelAndAntiparallelAxesAndBesideThem) {

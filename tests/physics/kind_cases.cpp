@@ -1,6 +1,8 @@
 // The kinds' cases.
 #include "tests/physics/kind_cases.h"
 
+#include "physics/constraints/between.h"
+
 namespace physics::testing {
 namespace {
 
@@ -15,10 +17,16 @@ void moveStart(Random& random, Bodies& bodies) {
   }
 }
 
+// Turns of both bodies about one axis since the start.
+void turnAbout(const Vec3& n, Random& random, Bodies& bodies) {
+  for (int b = 0; b < 2; ++b) {
+    bodies.pose[b].q = about(n, random.uniform(-1, 1)) * bodies.start[b].q;
+  }
+}
+
 template <class Item>
 Vec3 between(const Item& item, const Bodies& bodies) {
-  const Pose &i = bodies.pose[0], &j = bodies.pose[1];
-  return (i.x + i.q * item.anchors[0]) - (j.x + j.q * item.anchors[1]);
+  return physics::between(bodies.pose, item.bodies, item.anchors);
 }
 
 template <class Item>
@@ -48,6 +56,83 @@ void Case<Spring>::satisfy(Spring& item, Bodies& bodies) {
 }
 Spring Case<Spring>::swapped(Spring item, const Bodies&) { return swapAnchors(item); }
 
+VectorSpring Case<VectorSpring>::make(Random& random, Bodies& bodies) {
+  moveStart(random, bodies);
+  VectorSpring item{{0, 1}, {}, random.uniform(50, 500), random.uniform(0, 5)};
+  // The pair is turned by dp x f unless f is along dp: without levers and damping it is.
+  item.damping = 0;
+  anchorsApart(item, random, bodies);
+  bodies.pose[0].q = bodies.pose[1].q = Quat::Identity();
+  item.anchors = {Vec3::Zero(), Vec3::Zero()};
+  return item;
+}
+void Case<VectorSpring>::satisfy(VectorSpring& item, Bodies& bodies) {
+  bodies.start = bodies.pose;
+  item.anchors[1] = bodies.pose[1].q.conjugate() * (bodies.pose[0].x - bodies.pose[1].x);
+}
+VectorSpring Case<VectorSpring>::swapped(VectorSpring item, const Bodies&) {
+  return swapAnchors(item);
+}
+
+HardeningSpring Case<HardeningSpring>::make(Random& random, Bodies& bodies) {
+  moveStart(random, bodies);
+  HardeningSpring item{{0, 1},
+                       {},
+                       random.uniform(50, 500),
+                       random.uniform(0, 500),
+                       random.uniform(0, 5),
+                       random.uniform(0, 2)};
+  anchorsApart(item, random, bodies);
+  return item;
+}
+void Case<HardeningSpring>::satisfy(HardeningSpring& item, Bodies& bodies) {
+  bodies.start = bodies.pose;
+  item.restLength = between(item, bodies).norm();
+}
+HardeningSpring Case<HardeningSpring>::swapped(HardeningSpring item, const Bodies&) {
+  return swapAnchors(item);
+}
+
+PointGravity Case<PointGravity>::make(Random& random, Bodies& bodies) {
+  while ((bodies.pose[0].x - bodies.pose[1].x).norm() < 2 * kFar) {
+    bodies.pose[1].x += random.inBall(1);
+  }
+  return {{0, 1}, random.uniform(1, 9), random.uniform(0, 0.3)};
+}
+void Case<PointGravity>::satisfy(PointGravity& item, Bodies&) { item.strength = 0; }
+PointGravity Case<PointGravity>::swapped(PointGravity item, const Bodies&) { return item; }
+
+Drag Case<Drag>::make(Random& random, Bodies& bodies) {
+  moveStart(random, bodies);
+  return {{0}, random.uniform(0.1, 2), random.inBall(5)};
+}
+void Case<Drag>::satisfy(Drag& item, Bodies& bodies) {
+  bodies.start = bodies.pose;
+  item.wind.setZero();
+}
+Drag Case<Drag>::swapped(Drag item, const Bodies&) { return item; }
+
+PanelDrag Case<PanelDrag>::make(Random& random, Bodies& bodies) {
+  moveStart(random, bodies);
+  const Vec3 &p = bodies.pose[0].x, &q = bodies.pose[1].x, &r = bodies.pose[2].x;
+  const Vec3 n = (q - p).cross(r - p).normalized();  // wind that is not along the panel
+  return {{0, 1, 2}, random.uniform(2, 4), 30 * n + random.inBall(9)};
+}
+void Case<PanelDrag>::satisfy(PanelDrag& item, Bodies& bodies) {
+  bodies.start = bodies.pose;
+  item.wind.setZero();
+}
+PanelDrag Case<PanelDrag>::swapped(PanelDrag item, const Bodies&) { return item; }
+
+Bend Case<Bend>::make(Random& random, Bodies&) {
+  return {{0, 1, 2}, random.uniform(5, 50), 0};  // its damper turns the three: Bend.DamperTurns...
+}
+void Case<Bend>::satisfy(Bend&, Bodies& bodies) {
+  bodies.pose[1].x = 0.5 * (bodies.pose[0].x + bodies.pose[2].x);
+  bodies.start = bodies.pose;
+}
+Bend Case<Bend>::swapped(Bend item, const Bodies&) { return item; }
+
 Drive Case<Drive>::make(Random& random, Bodies& bodies) {
   moveStart(random, bodies);
   const Quat off = random.rotation(2);
@@ -72,10 +157,7 @@ Motor Case<Motor>::make(Random& random, Bodies& bodies) {
   return {{0, 1}, axis(random), random.uniform(1, 9)};
 }
 void Case<Motor>::toGradient(const Motor& item, Random& random, Bodies& bodies) {
-  const Vec3 n = bodies.start[0].q * item.axisI;
-  for (int b = 0; b < 2; ++b) {
-    bodies.pose[b].q = about(n, random.uniform(-1, 1)) * bodies.start[b].q;
-  }
+  turnAbout(bodies.start[0].q * item.axisI, random, bodies);
 }
 void Case<Motor>::satisfy(Motor& item, Bodies& bodies) {
   bodies.start = bodies.pose;
@@ -85,6 +167,66 @@ Motor Case<Motor>::swapped(Motor item, const Bodies& bodies) {
   item.axisI = -(bodies.pose[1].q.conjugate() * (bodies.pose[0].q * item.axisI));
   return item;
 }
+
+MotorTorque Case<MotorTorque>::make(Random& random, Bodies& bodies) {
+  moveStart(random, bodies);
+  return {{0, 1}, axis(random), random.uniform(1, 9), random.uniform(1, 9)};
+}
+void Case<MotorTorque>::toGradient(const MotorTorque& item, Random& random, Bodies& bodies) {
+  turnAbout(bodies.start[0].q * item.axisI, random, bodies);
+}
+void Case<MotorTorque>::satisfy(MotorTorque& item, Bodies& bodies) {
+  bodies.start = bodies.pose;
+  item.stallTorque = 0;
+}
+MotorTorque Case<MotorTorque>::swapped(MotorTorque item, const Bodies& bodies) {
+  item.axisI = -(bodies.pose[1].q.conjugate() * (bodies.pose[0].q * item.axisI));
+  return item;
+}
+
+Volume Case<Volume>::make(Random& random, Bodies& bodies) {
+  const auto x = [&](int b) -> Vec3& { return bodies.pose[b].x; };
+  Vec3 n;
+  do {
+    x(1) = x(0) + random.inBall(2);
+    x(2) = x(0) + random.inBall(2);
+    n = (x(1) - x(0)).cross(x(2) - x(0));
+  } while (n.norm() < 2 * kFar);
+  x(3) = (x(0) + x(1) + x(2)) / 3 + random.uniform(0.3, 1.5) * n.normalized() + random.inBall(0.1);
+  return {{0, 1, 2, 3}, volumeOf({x(0), x(1), x(2), x(3)}) * random.uniform(0.5, 1.5), 0};
+}
+void Case<Volume>::satisfy(Volume& item, Bodies& bodies) {
+  item.volume = volumeOf({bodies.pose[0].x, bodies.pose[1].x, bodies.pose[2].x, bodies.pose[3].x});
+}
+Volume Case<Volume>::swapped(Volume item, const Bodies&) { return item; }  // an even permutation
+
+RopeLength Case<RopeLength>::make(Random& random, Bodies& bodies) {
+  for (int b = 1; b < bodies.size(); ++b) {
+    while ((bodies.pose[b].x - bodies.pose[b - 1].x).norm() < kFar) {
+      bodies.pose[b].x += random.inBall(1);
+    }
+  }
+  RopeLength item{{0, 1, 2, 3, 4}, 0, false};
+  item.length = rowOf(item, bodies).c[0] * random.uniform(0.4, 0.9);
+  return item;
+}
+void Case<RopeLength>::satisfy(RopeLength& item, Bodies& bodies) {
+  item.length += rowOf(item, bodies).c[0];
+}
+RopeLength Case<RopeLength>::swapped(RopeLength item, const Bodies&) { return item; }
+
+Link Case<Link>::make(Random& random, Bodies& bodies) {
+  Link item{{0, 1}, 0, random.uniform(0, 1e-5), false};
+  while ((bodies.pose[0].x - bodies.pose[1].x).norm() < kFar) {
+    bodies.pose[1].x += random.inBall(1);
+  }
+  item.length = (bodies.pose[0].x - bodies.pose[1].x).norm() * random.uniform(0.4, 1.5);
+  return item;
+}
+void Case<Link>::satisfy(Link& item, Bodies& bodies) {
+  item.length = (bodies.pose[0].x - bodies.pose[1].x).norm();
+}
+Link Case<Link>::swapped(Link item, const Bodies&) { return item; }
 
 Distance Case<Distance>::make(Random& random, Bodies& bodies) {
   Distance item{{0, 1}, {}, 0, random.uniform(0, 1) < 0.5};

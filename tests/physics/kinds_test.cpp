@@ -1,4 +1,6 @@
 // What every kind promises: momenta, rest, bodies that do not move, and an end without residual.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cstring>
 
 #include "tests/physics/kind_cases.h"
@@ -36,20 +38,21 @@ TYPED_TEST(EveryKind, MovesSomethingWhenViolated) {
   using Item = typename TypeParam::Item;
   Random random(10);
   for (int n = 0; n < kSamples; ++n) {
-    Bodies bodies = randomPair(random);
+    Bodies bodies = randomBodies(random, countOf<Item>());
     const Item item = Case<Item>::make(random, bodies);
     const Bodies before = bodies;
     Multipliers<Item> lambda;
     ASSERT_TRUE(visit(item, lambda, bodies));
-    EXPECT_GT(distance(before.pose[1], bodies.pose[1]), 1e-6);
+    EXPECT_GT(distance(before.pose.back(), bodies.pose.back()), 1e-6);
   }
 }
 
 TYPED_TEST(EveryKind, KeepsLinearMomentum) {
   using Item = typename TypeParam::Item;
+  if (isExternal<Item>()) GTEST_SKIP() << "a force of the surroundings";
   Random random(11);
   for (int n = 0; n < kSamples; ++n) {
-    Bodies bodies = randomPair(random);
+    Bodies bodies = randomBodies(random, countOf<Item>());
     const Item item = Case<Item>::make(random, bodies);
     const Bodies before = bodies;
     Multipliers<Item> lambda;
@@ -64,9 +67,10 @@ TYPED_TEST(EveryKind, KeepsLinearMomentum) {
 // BallSocket.VectorFormTurnsThePairByTheGapTimesTheImpulse.
 TYPED_TEST(EveryKind, KeepsAngularMomentumOfThePair) {
   using Item = typename TypeParam::Item;
+  if (isExternal<Item>()) GTEST_SKIP() << "a force of the surroundings";
   Random random(12);
   for (int n = 0; n < kSamples; ++n) {
-    Bodies bodies = randomPair(random);
+    Bodies bodies = randomBodies(random, countOf<Item>());
     Item item = Case<Item>::make(random, bodies);
     makeScalar(item);
     const Bodies before = bodies;
@@ -82,28 +86,30 @@ TYPED_TEST(EveryKind, LeavesAnImmovableBodyAsItIsToTheBit) {
   using Item = typename TypeParam::Item;
   Random random(13);
   for (int n = 0; n < kSamples; ++n) {
-    Bodies bodies = randomPair(random);
+    Bodies bodies = randomBodies(random, countOf<Item>());
     const Item item = Case<Item>::make(random, bodies);
-    fix(bodies, n % 2);
+    const int fixed = n % bodies.size(), other = (fixed + 1) % bodies.size();
+    fix(bodies, fixed);
     const Bodies before = bodies;
     Multipliers<Item> lambda;
     for (int k = 0; k < 3; ++k) visit(item, lambda, bodies);
-    EXPECT_TRUE(sameBits(before.pose[n % 2], bodies.pose[n % 2]));
-    EXPECT_FALSE(sameBits(before.pose[1 - n % 2], bodies.pose[1 - n % 2]));
+    EXPECT_TRUE(sameBits(before.pose[fixed], bodies.pose[fixed]));
+    if (other != fixed) {
+      EXPECT_FALSE(sameBits(before.pose[other], bodies.pose[other]));
+    }
   }
 }
 
-TYPED_TEST(EveryKind, DoesNothingBetweenTwoImmovableBodies) {
+TYPED_TEST(EveryKind, DoesNothingBetweenImmovableBodies) {
   using Item = typename TypeParam::Item;
   Random random(14);
-  Bodies bodies = randomPair(random);
+  Bodies bodies = randomBodies(random, countOf<Item>());
   const Item item = Case<Item>::make(random, bodies);
-  fix(bodies, 0);
-  fix(bodies, 1);
+  for (int b = 0; b < bodies.size(); ++b) fix(bodies, b);
   const Bodies before = bodies;
   Multipliers<Item> lambda;
   EXPECT_TRUE(visit(item, lambda, bodies));
-  EXPECT_TRUE(sameBits(before.pose[0], bodies.pose[0]) && sameBits(before.pose[1], bodies.pose[1]));
+  for (int b = 0; b < bodies.size(); ++b) EXPECT_TRUE(sameBits(before.pose[b], bodies.pose[b]));
   EXPECT_TRUE(lambda.total.isZero(0));
 }
 
@@ -111,13 +117,13 @@ TYPED_TEST(EveryKind, RestsWhenSatisfied) {
   using Item = typename TypeParam::Item;
   Random random(15);
   for (int n = 0; n < kSamples; ++n) {
-    Bodies bodies = randomPair(random);
+    Bodies bodies = randomBodies(random, countOf<Item>());
     Item item = Case<Item>::make(random, bodies);
     Case<Item>::satisfy(item, bodies);
     const Bodies before = bodies;
     Multipliers<Item> lambda;
     for (int k = 0; k < 10; ++k) visit(item, lambda, bodies);
-    for (int b = 0; b < 2; ++b) {  // c itself is rounded to 1e-15
+    for (int b = 0; b < bodies.size(); ++b) {  // c itself is rounded to 1e-15
       EXPECT_LT(distance(before.pose[b], bodies.pose[b]), 3e-14);
     }
   }
@@ -127,16 +133,18 @@ TYPED_TEST(EveryKind, IsTheSameWithItsBodiesSwapped) {
   using Item = typename TypeParam::Item;
   Random random(16);
   for (int n = 0; n < kSamples; ++n) {
-    Bodies bodies = randomPair(random);
+    Bodies bodies = randomBodies(random, countOf<Item>());
     Item item = Case<Item>::make(random, bodies);
     makeScalar(item);
     Item swapped = Case<Item>::swapped(item, bodies);
-    std::swap(swapped.bodies[0], swapped.bodies[1]);
+    std::reverse(swapped.bodies.begin(), swapped.bodies.end());
     Bodies other = bodies;
     Multipliers<Item> lambda, otherLambda;
     visit(item, lambda, bodies);
     visit(swapped, otherLambda, other);
-    for (int b = 0; b < 2; ++b) EXPECT_LT(distance(bodies.pose[b], other.pose[b]), 1e-12) << n;
+    for (int b = 0; b < bodies.size(); ++b) {
+      EXPECT_LT(distance(bodies.pose[b], other.pose[b]), 1e-12) << n;
+    }
     EXPECT_NEAR(lambda.total.norm(), otherLambda.total.norm(), 1e-12 * (1 + lambda.total.norm()));
   }
 }
@@ -145,13 +153,30 @@ TYPED_TEST(EveryKind, EndsWithoutResidual) {
   using Item = typename TypeParam::Item;
   Random random(17);
   for (int n = 0; n < 50; ++n) {
-    Bodies bodies = randomPair(random);
+    Bodies bodies = randomBodies(random, countOf<Item>());
     const Item item = Case<Item>::make(random, bodies);
     const Multipliers<Item> lambda = iterate(item, bodies, 200);
-    const auto row = rowOf(item, bodies);
-    // c is already divided by the compliance's scale: for forces it is an impulse times alpha.
-    const double residual = (row.c + row.alpha * lambda.total).norm();
-    EXPECT_LT(residual, 1e-10 * (1 + row.alpha * lambda.total.norm())) << n;
+    EXPECT_LT(residualOf(item, lambda, bodies), 1e-10 * (1 + lambda.total.norm())) << n;
+  }
+}
+
+// K is how fast the force falls off: along a displacement of c it must be the force's own
+// derivative, or less where that would be negative (point gravity along the line, a panel that
+// turns).
+TYPED_TEST(EveryKind, ForceFallsOffAsItsStiffnessSays) {
+  using Item = typename TypeParam::Item;
+  if constexpr (Force<Item>) {
+    Random random(18);
+    for (int n = 0; n < kSamples; ++n) {
+      Bodies bodies = randomBodies(random, countOf<Item>());
+      const Item item = Case<Item>::make(random, bodies);
+      Case<Item>::toGradient(item, random, bodies);
+      const auto push = rowOf(item, bodies);
+      const Eigen::SelfAdjointEigenSolver<typename std::decay_t<decltype(push)>::Matrix> eigen(
+          push.k);
+      EXPECT_GE(eigen.eigenvalues().minCoeff(), -1e-12 * eigen.eigenvalues().cwiseAbs().maxCoeff());
+      EXPECT_LT((push.k - push.k.transpose()).norm(), 1e-14 * (1 + push.k.norm()));
+    }
   }
 }
 

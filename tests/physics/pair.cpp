@@ -23,6 +23,9 @@ BodyId add(Bodies& bodies, const BodyOf& def) {
   bodies.freeTurn.push_back(Vec3::Zero());
   bodies.shape.push_back(PointShape{});
   bodies.friction.emplace_back();
+  if (inverse.x() != inverse.y() || inverse.y() != inverse.z()) {
+    bodies.anisotropic.push_back(bodies.size() - 1);
+  }
   return bodies.size() - 1;
 }
 
@@ -32,9 +35,9 @@ Bodies bodiesOf(std::initializer_list<BodyOf> defs) {
   return bodies;
 }
 
-Bodies randomPair(Random& random) {
+Bodies randomBodies(Random& random, int count) {
   Bodies bodies;
-  for (int b = 0; b < 2; ++b) {
+  for (int b = 0; b < count; ++b) {
     BodyOf def;
     def.mass = random.uniform(0.5, 3);
     const Vec3 squares(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1));

@@ -22,8 +22,9 @@ BodyId add(Bodies& bodies, const BodyOf& def);
 
 Bodies bodiesOf(std::initializer_list<BodyOf> defs);
 
-// A pair with random masses and inertias (the triangle rule holds) near the origin.
-Bodies randomPair(Random& random);
+// Bodies with random masses and inertias (the triangle rule holds) near the origin.
+Bodies randomBodies(Random& random, int count);
+inline Bodies randomPair(Random& random) { return randomBodies(random, 2); }
 
 Quat about(const Vec3& axis, double angle);  // angle [rad]
 
@@ -36,13 +37,14 @@ Momenta given(const Bodies& before, const Bodies& after);
 
 template <class C>
 typename Set<C>::Tuned plain() {
-  return {1, 0, false};
+  return {1, 0};
 }
 
 // One visit to the constraint, inertia as it stands.
 template <class C>
 bool visit(const C& item, Multipliers<C>& lambda, Bodies& bodies, double dt = 1.0 / 60) {
-  return solve(item, lambda, plain<C>(), bodies, dt);
+  Scratch<C> scratch;
+  return solve(item, lambda, plain<C>(), bodies, dt, scratch);
 }
 
 // Visits as a World with this constraint alone makes them: fresh inertia for each.
@@ -57,11 +59,27 @@ Multipliers<C> iterate(const C& item, Bodies& bodies, int visits, double dt = 1.
 }
 
 template <class C>
-Row<C::kBodies, C::kRows> rowOf(const C& item, const Bodies& bodies, double dt = 1.0 / 60) {
-  Row<C::kBodies, C::kRows> row;
-  for (int b = 0; b < C::kBodies; ++b) row.linear[b].setZero(), row.angular[b].setZero();
+Evaluated<C> rowOf(const C& item, const Bodies& bodies, double dt = 1.0 / 60) {
+  Evaluated<C> row;
+  if constexpr (C::kBodies == kMany) {
+    row.linear.resize(item.bodies.size());
+    row.angular.resize(item.bodies.size());
+  }
+  for (auto& block : row.linear) block.setZero();
+  for (auto& block : row.angular) block.setZero();
   item.evaluate({bodies.pose, bodies.start, dt}, row);
   return row;
+}
+
+// What is left to solve: c + alpha lambda of a constraint, lambda - f h^2 of a force.
+template <class C>
+double residualOf(const C& item, const Multipliers<C>& lambda, const Bodies& bodies) {
+  const auto row = rowOf(item, bodies);
+  if constexpr (Force<C>) {
+    return (lambda.total - row.f).norm();
+  } else {
+    return (row.c + row.alpha * lambda.total).norm();
+  }
 }
 
 // The angle between two vectors [rad], by the C library.

@@ -41,7 +41,10 @@ struct FieldChanger {
     member = physics::Quat(0.6, 0, 0.8, 0);
   }
   void change(const physics::Field&, std::array<physics::BodyId, 2>& member) { member = {1, 2}; }
+  void change(const physics::Field&, std::array<int, 1>& member) { member = {2}; }
   void change(const physics::Field&, std::array<int, 3>& member) { member = {2, 3, 4}; }
+  void change(const physics::Field&, std::array<int, 4>& member) { member = {4, 3, 2, 1}; }
+  void change(const physics::Field&, std::vector<int>& member) { member = {3, 1, 2}; }
   void change(const physics::Field& f, std::array<double, 2>& member) {
     member[0] = next(f);
     member[1] = member[0] + 0.01;

@@ -24,6 +24,8 @@ inline std::string textOf(const physics::Quat& q) {
 inline std::string textOf(const std::array<physics::BodyId, 2>& b) {
   return fmt::format("[\"b{}\", \"b{}\"]", b[0], b[1]);
 }
+inline std::string textOf(const std::array<physics::BodyId, 1>& b) { return textOf(b[0]); }
+inline std::string textOf(const std::array<physics::BodyId, 4>& b) { return textOf(b[0]); }
 inline std::string textOf(const std::array<int, 3>& n) {
   return fmt::format("[{}, {}, {}]", n[0], n[1], n[2]);
 }
@@ -67,9 +69,20 @@ struct FieldWriter {
       T inDegrees = member;
       if (field.unit == physics::Unit::kDegrees) scale(inDegrees, 180 / M_PI);
       put(field.name, textOf(inDegrees));
+    } else if constexpr (requires { bodyNames(member); }) {
+      put(field.name, field.unit == physics::Unit::kBody ? bodyNames(member) : textOf(member));
     } else {
       put(field.name, textOf(member));
     }
+  }
+  template <std::size_t N>
+  static std::string bodyNames(const std::array<int, N>& bodies) {
+    return N == 1 ? fmt::format("\"b{}\"", bodies[0]) : bodyNames({bodies.begin(), bodies.end()});
+  }
+  static std::string bodyNames(const std::vector<int>& bodies) {
+    std::string text;
+    for (const int body : bodies) text += fmt::format("{}\"b{}\"", text.empty() ? "" : ", ", body);
+    return "[" + text + "]";
   }
   static void scale(double& value, double factor) { value *= factor; }
   static void scale(std::array<double, 2>& pair, double factor) {

@@ -21,7 +21,10 @@ class Fields : public testing::Test {};
 using Definitions =
     testing::Types<physics::BallSocketDef, physics::AxleDef, physics::ConeLimitDef,
                    physics::TwistLimitDef, physics::DistanceDef, physics::SpringDef,
-                   physics::DriveDef, physics::MotorDef, physics::HingeDef, physics::StackDef,
+                   physics::DriveDef, physics::MotorDef, physics::LinkDef, physics::RopeLengthDef,
+                   physics::VolumeDef, physics::BendDef, physics::HardeningSpringDef,
+                   physics::DragDef, physics::PanelDragDef, physics::MotorTorqueDef,
+                   physics::PointGravityDef, physics::HingeDef, physics::StackDef,
                    physics::PyramidDef, physics::WallDef, physics::GridDef, physics::ChainDef,
                    physics::BridgeDef, physics::ArchDef, physics::CardHouseDef,
                    physics::DominoesDef, physics::BowlDef, physics::StairsDef, physics::RagdollDef>;
@@ -34,7 +37,7 @@ TYPED_TEST(Fields, SurviveWritingAndReading) {
   const std::string text = textOfDef(written);
 
   const Value table = parseToml(text, "fields.toml");
-  const std::map<std::string, physics::BodyId> ids{{"b1", 1}, {"b2", 2}};
+  const std::map<std::string, physics::BodyId> ids{{"b1", 1}, {"b2", 2}, {"b3", 3}, {"b4", 4}};
   const Context context{"fields.toml", &ids};
   TableReader reader(table, TypeParam::kWord, context);
   TypeParam read;

@@ -1,0 +1,126 @@
+// Soft things against rigid shapes: bounds first, then the narrow phase of a sphere or a capsule.
+#include "physics/collision/soft_collider.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/collision/narrow.h"
+
+namespace physics {
+
+using namespace collision;
+
+namespace {
+
+Bounds around(const Bounds& a, const Bounds& b) {
+  return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+}
+
+// The element as a solid, and its frame at the start.
+struct Placed {
+  Solid solid;
+  Pose pose;
+};
+
+Placed place(const SoftElement& element, std::span<const Pose> start) {
+  Placed placed;
+  const Vec3 &from = start[element.from].x, &to = start[element.to].x;
+  placed.solid.rounding = placed.solid.radius = element.radius;
+  placed.pose.x = 0.5 * (from + to);
+  const Vec3 along = to - from;
+  const double length = along.norm();
+  const bool line = length > 1e-12;
+  placed.solid.kind = line ? Kind::capsule : Kind::sphere;
+  placed.solid.halfLength = 0.5 * length;
+  placed.solid.coreRadius = 0.5 * length;
+  placed.solid.size = placed.solid.coreRadius + element.radius;
+  placed.solid.thickness = 2 * element.radius;
+  if (line) placed.pose.q = Quat::FromTwoVectors(Vec3::UnitY(), along);
+  return placed;
+}
+
+}  // namespace
+
+void SoftCollider::addBody(BodyId body, const Shape& shape) {
+  if (std::holds_alternative<PointShape>(shape)) return;
+  Rigid rigid;
+  rigid.body = body;
+  rigid.solid = makeSolid(shape);
+  rigids_.push_back(std::move(rigid));
+}
+
+void SoftCollider::takeMotion(std::span<const Pose> start, std::span<const Pose> end,
+                              double margin) {
+  for (Rigid& rigid : rigids_) {
+    const Pose &from = start[rigid.body], &to = end[rigid.body];
+    rigid.rotation = from.q.toRotationMatrix();
+    rigid.move = to.x - from.x;
+    rigid.turn = 0;
+    if (rigid.solid.kind == Kind::plane) continue;
+    rigid.turn = 2 * (to.q.coeffs() - from.q.coeffs()).norm() * rigid.solid.size;
+    rigid.path = around(boundsAt(rigid.solid, from.x, rigid.rotation),
+                        boundsAt(rigid.solid, to.x, to.q.toRotationMatrix()));
+    rigid.path.low.array() -= margin;
+    rigid.path.high.array() += margin;
+  }
+}
+
+bool SoftCollider::mayTouch(const SoftElement& element, const Rigid& rigid,
+                            std::span<const Pose> start, std::span<const Pose> end,
+                            double margin) const {
+  if (rigid.body == element.from || rigid.body == element.to) return false;
+  const Vec3 &a = start[element.from].x, &b = end[element.from].x;
+  const Vec3 &c = start[element.to].x, &d = end[element.to].x;
+  if (rigid.solid.kind == Kind::plane) {
+    const Vec3 n = rigid.rotation * rigid.solid.normal;
+    const double low = std::min({n.dot(a), n.dot(b), n.dot(c), n.dot(d)});
+    return low - n.dot(start[rigid.body].x) - rigid.solid.offset < element.radius + margin;
+  }
+  const Vec3 low = a.cwiseMin(b).cwiseMin(c).cwiseMin(d).array() - element.radius;
+  const Vec3 high = a.cwiseMax(b).cwiseMax(c).cwiseMax(d).array() + element.radius;
+  return (low.array() <= rigid.path.high.array()).all() &&
+         (high.array() >= rigid.path.low.array()).all();
+}
+
+void SoftCollider::look(int index, const Rigid& rigid, std::span<const Pose> start,
+                        std::span<const Pose> end, double margin) {
+  const SoftElement& element = elements_[index];
+  const Placed placed = place(element, start);
+  const double approach =
+      std::max((end[element.from].x - start[element.from].x - rigid.move).norm(),
+               (end[element.to].x - start[element.to].x - rigid.move).norm());
+  const double reach = margin + approach + rigid.turn;
+  const bool swap = placed.solid.kind > rigid.solid.kind;  // a capsule against a sphere
+  const Relative pose = relativePose(placed.pose, start[rigid.body]);
+  Manifold manifold;
+  if (swap) {
+    touch(rigid.solid, placed.solid, inverse(pose), reach, reach, manifold);
+  } else {
+    touch(placed.solid, rigid.solid, pose, reach, reach, manifold);
+  }
+  for (int k = 0; k < manifold.count; ++k) {
+    const ContactPoint& p = manifold.points[k];
+    const Vec3 n = swap ? Vec3(-(pose.R * manifold.normal)) : manifold.normal;  // rigid frame
+    const Vec3& onElement = swap ? p.coreB : p.coreA;                           // its own frame
+    const Vec3 onRigid = swap ? Vec3(p.coreA + p.radiusA * n) : Vec3(p.coreB + p.radiusB * n);
+    const double length = 2 * placed.solid.halfLength;
+    const double along =
+        element.isPoint() || length == 0 ? 0 : std::clamp(onElement.y() / length + 0.5, 0.0, 1.0);
+    const double gap = n.dot(pose.R * onElement + pose.t - onRigid) - element.radius;
+    touches_.push_back({index, rigid.body, along, onRigid, n, gap});
+  }
+}
+
+std::span<const SoftTouch> SoftCollider::find(std::span<const Pose> start,
+                                              std::span<const Pose> end, double margin) {
+  takeMotion(start, end, margin);
+  touches_.clear();
+  for (int k = 0; k < static_cast<int>(elements_.size()); ++k) {
+    for (const Rigid& rigid : rigids_) {
+      if (mayTouch(elements_[k], rigid, start, end, margin)) look(k, rigid, start, end, margin);
+    }
+  }
+  return touches_;
+}
+
+}  // namespace physics

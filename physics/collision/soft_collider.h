@@ -1,0 +1,65 @@
+// Points and links of ropes, cloths and soft bodies against the shapes of rigid bodies. They do not
+// touch each other. A link is a capsule between two points, so that an edge does not pass between
+// them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/body.h"
+#include "physics/collision/solid.h"
+
+namespace physics {
+
+struct SoftElement {
+  BodyId from = 0, to = 0;  // the same for a point
+  double radius = 0;        // m
+  Friction friction;
+  bool isPoint() const { return from == to; }
+};
+
+// Where an element and a body come near each other: a plane of the body, and a place on the
+// element.
+struct SoftTouch {
+  int element = 0;
+  BodyId body = 0;
+  double along = 0;             // 0 at `from`, 1 at `to`
+  Vec3 onBody = Vec3::Zero();   // body frame, on the surface
+  Vec3 normal = Vec3::UnitY();  // body frame, unit, towards the element
+  double gap = 0;               // m
+};
+
+class SoftCollider {
+ public:
+  void addBody(BodyId body, const Shape& shape);
+  void addElement(const SoftElement& element) { elements_.push_back(element); }
+  bool empty() const { return elements_.empty(); }
+  const SoftElement& element(int index) const { return elements_[index]; }
+
+  // Every place whose gap at `start` is at most `margin` [m] plus the way that element and body
+  // make towards each other until `end`; taken at `start`, so that nothing passes through a thin
+  // body. Ordered by element and body, valid until the next call; allocates only while it grows.
+  std::span<const SoftTouch> find(std::span<const Pose> start, std::span<const Pose> end,
+                                  double margin);
+
+ private:
+  struct Rigid {
+    BodyId body = 0;
+    collision::Solid solid;
+    Mat3 rotation = Mat3::Identity();  // at the start
+    collision::Bounds path;            // from start to end
+    Vec3 move = Vec3::Zero();
+    double turn = 0;  // the furthest that turning moves a point of it [m]
+  };
+  void takeMotion(std::span<const Pose> start, std::span<const Pose> end, double margin);
+  bool mayTouch(const SoftElement& element, const Rigid& rigid, std::span<const Pose> start,
+                std::span<const Pose> end, double margin) const;
+  void look(int element, const Rigid& rigid, std::span<const Pose> start, std::span<const Pose> end,
+            double margin);
+
+  std::vector<SoftElement> elements_;
+  std::vector<Rigid> rigids_;
+  std::vector<SoftTouch> touches_;
+};
+
+}  // namespace physics

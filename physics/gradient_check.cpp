@@ -1,0 +1,63 @@
+// The World's self-check: every gradient against central differences of its coordinate.
+#include <cmath>
+
+#include "physics/world_impl.h"
+
+namespace physics {
+namespace {
+
+constexpr double kStep = 1e-6;  // m, rad: truncation 1e-12 of the third derivative, rounding 1e-10
+
+template <class C>
+Evaluated<C> evaluated(const C& item, const std::vector<Pose>& pose, const World::Impl& w) {
+  Evaluated<C> row;
+  item.evaluate({pose, w.bodies.start, w.substepLength()}, row);
+  return row;
+}
+
+// Central difference of c by a displacement of one body along coordinate k: 0..2 dx, 3..5 a turn.
+template <class C>
+typename Set<C>::Vector difference(const C& item, std::vector<Pose>& pose, BodyId body, int k,
+                                   const World::Impl& w) {
+  Vec3 dx = Vec3::Zero(), turn = Vec3::Zero();
+  (k < 3 ? dx : turn)[k % 3] = kStep;
+  const Pose here = pose[body];
+  displace(pose[body], dx, turn);
+  const auto ahead = evaluated(item, pose, w).c;
+  pose[body] = here;
+  displace(pose[body], -dx, -turn);
+  const auto behind = evaluated(item, pose, w).c;
+  pose[body] = here;
+  return (ahead - behind) / (2 * kStep);
+}
+
+template <class C>
+double deviation(const C& item, std::vector<Pose>& pose, const World::Impl& w) {
+  const auto row = evaluated(item, pose, w);
+  if (!row.active) return 0;
+  double worst = 0, largest = 0;
+  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+    for (int k = C::kLinear ? 0 : 3; k < (isAngular<C>() ? 6 : 3); ++k) {
+      const auto& block = k < 3 ? row.linear[b] : row.angular[b];
+      const auto wrong = (block.col(k % 3) - difference(item, pose, item.bodies[b], k, w)).eval();
+      worst = std::max(worst, wrong.cwiseAbs().maxCoeff());
+      largest = std::max(largest, block.col(k % 3).cwiseAbs().maxCoeff());
+    }
+  }
+  return largest > 0 ? worst / largest : worst;
+}
+
+}  // namespace
+
+double World::gradientError() const {
+  std::vector<Pose> pose = impl_->bodies.pose;
+  double worst = 0;
+  forEachKind(impl_->kinds, [&](const auto& kind) {
+    for (const auto& item : kind.set.items) {
+      worst = std::max(worst, deviation(item, pose, *impl_));
+    }
+  });
+  return worst;
+}
+
+}  // namespace physics

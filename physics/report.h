@@ -1,0 +1,53 @@
+// What a World tells about a step and about its constraints.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "physics/body.h"
+
+namespace physics {
+
+// What a step did, and what went wrong in it.
+struct StepReport {
+  int substeps = 0;
+  int iterations = 0;  // sweeps in all
+  std::int64_t constraintEvaluations = 0;
+  double residual = 0;  // largest contact error that the last sweep met [m]
+  struct NotFinite {
+    int substep = 0;
+    BodyId body = -1;
+    std::string constraint;  // "ball_socket 3", or empty where the free motion already failed
+  };
+  std::optional<NotFinite> notFinite;  // the world was put back to the state before the step
+};
+
+// The errors of one kind of constraint, in the unit of its rows.
+struct KindError {
+  std::string kind;
+  std::string unit;  // "m", "rad", or "1" for a volume's relative error
+  double largest = 0;
+  double sum = 0;  // of |c| over them all
+  int count = 0;
+  int worst = -1;  // index within the kind
+};
+
+// A contact point as a picture or a table wants it.
+struct ContactReport {
+  BodyId a, b;
+  Vec3 point;    // world [m]
+  Vec3 normal;   // world, from b to a
+  double gap;    // m, negative: overlap
+  Vec3 impulse;  // on a, over the last substep [N s]
+};
+
+struct JointReport {
+  std::string kind;
+  BodyId a, b;
+  Vec3 pointA, pointB;  // world
+  Vec3 axis;            // world, zero where the kind has none
+  double error;         // m or rad
+};
+
+}  // namespace physics
