@@ -59,6 +59,7 @@ struct Bodies {
   std::vector<Vec3> freeTurn;  // log of the predicted rotation of this substep, world frame [rad]
   std::vector<Shape> shape;
   std::vector<Friction> friction;
+  std::vector<bool> isSoft;         // points of a soft surface: it touches for them
   std::vector<BodyId> anisotropic;  // those whose world inertia follows their turn
 
   int size() const { return static_cast<int>(pose.size()); }

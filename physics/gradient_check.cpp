@@ -31,10 +31,21 @@ typename Set<C>::Vector difference(const C& item, std::vector<Pose>& pose, BodyI
   return (ahead - behind) / (2 * kStep);
 }
 
+// A one-sided row that has nothing to do needs no gradient, and a limit may have none at its
+// middle.
+template <class C>
+bool isAtWork(const Evaluated<C>& row) {
+  if constexpr (!Force<C>) {
+    if (row.high <= 0 && (row.c.array() <= 0).all()) return false;
+    if (row.low >= 0 && (row.c.array() >= 0).all()) return false;
+  }
+  return row.active;
+}
+
 template <class C>
 double deviation(const C& item, std::vector<Pose>& pose, const World::Impl& w) {
   const auto row = evaluated(item, pose, w);
-  if (!row.active) return 0;
+  if (!isAtWork<C>(row)) return 0;
   double worst = 0, largest = 0;
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     for (int k = C::kLinear ? 0 : 3; k < (isAngular<C>() ? 6 : 3); ++k) {

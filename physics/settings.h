@@ -10,6 +10,7 @@ namespace physics {
 enum class Method {
   kNonlinearGaussSeidel,  // (52)
   kDirect,                // (42) for joints, Gauss-Seidel for what has bounds
+  kLinearGaussSeidel,     // (51), for comparison
 };
 enum class Stepping {
   kPaper,   // backward Euler

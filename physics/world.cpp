@@ -14,6 +14,15 @@ namespace {
 
 constexpr int kMostLooks = 4;  // how often contacts are looked for anew within one substep
 
+// Before the first step, when it is known which points a soft surface touches for.
+void takeShapes(World::Impl& w) {
+  for (BodyId body = kWorldBody + 1; body < w.bodies.size(); ++body) {
+    const bool isMovable = w.bodies.motion[body] == Motion::kDynamic;
+    if (!w.bodies.isSoft[body]) w.collider.add(body, w.bodies.shape[body], isMovable);
+    w.softCollider.addBody(body, w.bodies.shape[body]);
+  }
+}
+
 // Manifolds for the motion from the start of the substep to `target`.
 void findContacts(World::Impl& w, std::span<const Pose> target) {
   update(w.contacts, w.collider.find(w.bodies.start, target, w.settings.contact->margin), w.bodies);
@@ -42,7 +51,14 @@ void findContactsAhead(World::Impl& w, double remaining) {
 }
 
 void solveOnce(World::Impl& w, double h, StepReport& report) {
-  w.settings.method == Method::kDirect ? direct(w, h, report) : nonlinearGaussSeidel(w, h, report);
+  switch (w.settings.method) {
+    case Method::kNonlinearGaussSeidel:
+      return nonlinearGaussSeidel(w, h, report);
+    case Method::kDirect:
+      return direct(w, h, report);
+    case Method::kLinearGaussSeidel:
+      return linearGaussSeidel(w, h, report);
+  }
 }
 
 void solveConstraints(World::Impl& w, double h, StepReport& report) {
@@ -92,6 +108,7 @@ StepReport World::step() {
   const double h = w.substepLength();
   const bool isStatic = w.settings.stepping == Stepping::kStatic;
   StepReport report;
+  if (w.settings.contact && w.stepCount == 0) takeShapes(w);
   w.last.pose = w.bodies.pose;
   w.last.velocity = w.bodies.velocity;
   for (int k = 0; k < w.settings.substeps && !report.notFinite; ++k) {

@@ -93,10 +93,7 @@ BodyId World::add(const BodyDef& def) {
   b.friction.push_back(friction);
   if (inverse.x() != inverse.y() || inverse.y() != inverse.z()) b.anisotropic.push_back(id);
   w.loads.emplace_back();
-  if (w.settings.contact && id != kWorldBody) {
-    w.collider.add(id, def.shape, def.motion != Motion::kStatic);
-    w.softCollider.addBody(id, def.shape);
-  }
+  b.isSoft.push_back(false);
   return id;
 }
 
@@ -110,6 +107,7 @@ void World::add(const SoftSurfaceDef& def) {
       require(isPoint(w.bodies.shape[body]), "a soft surface is made of points");
     }
     w.softCollider.addElement({from, to, def.radius, def.friction});
+    w.bodies.isSoft[from] = w.bodies.isSoft[to] = true;
   };
   for (const BodyId node : def.nodes) add(node, node);
   for (const auto& [from, to] : def.links) add(from, to);

@@ -8,6 +8,7 @@
 #include "physics/kinds.h"
 #include "physics/methods/conjugate.h"
 #include "physics/methods/joint_system.h"
+#include "physics/methods/linear_gauss_seidel.h"
 #include "physics/world.h"
 
 namespace physics {
@@ -27,6 +28,7 @@ struct World::Impl {
   std::vector<JointRows> jointRows;
   std::vector<Vec3> jointChange;
   std::vector<JointMotion> jointMotion;
+  LinearSystem linear;      // the linear method only
   std::vector<Pose> ahead;  // scratch: poses at the end of the step, as far as now is known
 
   struct Snapshot {  // the last good state

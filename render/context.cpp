@@ -46,4 +46,6 @@ void Context::makeCurrent() {
 // OSMesaDestroyContext of Mesa 22.3 keeps about 200 bytes of each context.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
+extern "C" const char* __lsan_default_options();
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif

@@ -13,7 +13,7 @@ namespace {
 using physics::Field;
 using physics::Unit;
 
-constexpr const char* kMethods[] = {"nonlinear_gauss_seidel", "direct"};
+constexpr const char* kMethods[] = {"nonlinear_gauss_seidel", "direct", "linear_gauss_seidel"};
 constexpr const char* kSteppings[] = {"paper", "static"};
 constexpr const char* kRegularisations[] = {"compliance", "damping"};
 constexpr const char* kInertias[] = {"plain", "spinning"};

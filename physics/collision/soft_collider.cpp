@@ -115,6 +115,7 @@ std::span<const SoftTouch> SoftCollider::find(std::span<const Pose> start,
                                               std::span<const Pose> end, double margin) {
   takeMotion(start, end, margin);
   touches_.clear();
+  touches_.reserve(elements_.size());
   for (int k = 0; k < static_cast<int>(elements_.size()); ++k) {
     for (const Rigid& rigid : rigids_) {
       if (mayTouch(elements_[k], rigid, start, end, margin)) look(k, rigid, start, end, margin);

@@ -34,6 +34,7 @@ class SoftCollider {
   void addBody(BodyId body, const Shape& shape);
   void addElement(const SoftElement& element) { elements_.push_back(element); }
   bool empty() const { return elements_.empty(); }
+  std::size_t elementCount() const { return elements_.size(); }
   const SoftElement& element(int index) const { return elements_[index]; }
 
   // Every place whose gap at `start` is at most `margin` [m] plus the way that element and body

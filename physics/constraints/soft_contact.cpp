@@ -84,6 +84,7 @@ double gapOf(const SoftContact& contact, std::span<const Pose> pose) {
 void startSoftContacts(std::span<const SoftTouch> touches, const SoftCollider& collider,
                        const Bodies& bodies, std::vector<SoftContact>& contacts) {
   contacts.clear();
+  contacts.reserve(collider.elementCount());
   for (const SoftTouch& touch : touches) {
     const SoftElement& element = collider.element(touch.element);
     const Pose& b = bodies.start[touch.body];

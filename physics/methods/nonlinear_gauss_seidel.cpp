@@ -97,7 +97,8 @@ void refreshInverseMasses(World::Impl& world, double dt) {
 }
 
 void prepareConstraints(World::Impl& world, double dt) {
-  const bool warm = world.settings.warmStartJoints;
+  const bool isLinear = world.settings.method == Method::kLinearGaussSeidel;
+  const bool warm = world.settings.warmStartJoints && !isLinear;
   forEachKind(world.kinds, [&](auto& kind) {
     auto& set = kind.set;
     for (std::size_t k = 0; k < set.items.size(); ++k) {
@@ -107,7 +108,7 @@ void prepareConstraints(World::Impl& world, double dt) {
     }
   });
   for (ContactPair& pair : world.contacts.pairs) {
-    prepare(pair, world.bodies, world.settings.warmStart);
+    prepare(pair, world.bodies, world.settings.warmStart && !isLinear);
   }
 }
 

@@ -24,6 +24,7 @@ bool sweep(World::Impl& world, double dt, bool backward, StepReport& report);
 void iterate(World::Impl& world, double dt, StepReport& report,
              const std::function<bool()>& beforeSweep);
 
-void nonlinearGaussSeidel(World::Impl& world, double dt, StepReport& report);
+void nonlinearGaussSeidel(World::Impl& world, double dt, StepReport& report);  // (52)
+void linearGaussSeidel(World::Impl& world, double dt, StepReport& report);     // (51)
 
 }  // namespace physics

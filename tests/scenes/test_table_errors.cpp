@@ -53,7 +53,7 @@ TEST(SceneFile, ListsTheMethodsForAnUnknownOne) {
   EXPECT_EQ(
       errorOf("[simulation]\nmethod = \"magic\"\n"),
       "test.toml:2:10: simulation.method: expected one of 'nonlinear_gauss_seidel', 'direct', "
-      "got 'magic'");
+      "'linear_gauss_seidel', got 'magic'");
 }
 
 TEST(SceneFile, RefusesGravityThatIsNotAVector) {
