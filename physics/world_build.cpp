@@ -94,7 +94,7 @@ BodyId World::add(const BodyDef& def) {
   if (inverse.x() != inverse.y() || inverse.y() != inverse.z()) b.anisotropic.push_back(id);
   w.loads.emplace_back();
   if (w.settings.contact && id != kWorldBody) {
-    w.collider.add(id, def.shape, def.motion != Motion::kStatic);
+    w.collider.add(id, def.shape, dynamic);
     w.softCollider.addBody(id, def.shape);
   }
   return id;
