@@ -32,6 +32,9 @@ void checkLink(const ArmLinkDef& def, int k) {
   requireLink(!def.centre || def.centre->allFinite(), k, "a finite centre of mass");
   requireLink(!def.inertia || (def.inertia->allFinite() && def.inertia->minCoeff() >= 0), k,
               "moments of inertia >= 0");
+  const Vec3 moments = def.inertia.value_or(Vec3::Zero());
+  requireLink(2 * moments.maxCoeff() <= moments.sum() * (1 + 1e-9), k,
+              "moments of inertia of which none exceeds the sum of the other two");
 }
 
 ArmLink makeLink(const ArmLinkDef& def) {

@@ -75,7 +75,7 @@ World armAndBox(BodyId& box) {
   BodyDef def = testing::box(Vec3::Constant(0.2));
   def.pose.x = Vec3(0.8, 0.1, -0.25);
   box = world.add(def);
-  ArmDef arm = reachingArm(Vec3(0, 0.1, 0), Vec3(0.85, 0.1, -0.5));
+  ArmDef arm = reachingArm(Vec3(0, 0.1, 0), Vec3(0.75, 0.1, -0.5));
   for (ArmLinkDef& link : arm.links) {
     link.axis = Vec3::UnitY();
     link.angle = 0.01;
