@@ -73,9 +73,11 @@ scenes::Overlays chooseOverlays(scenes::Overlays overlays, const std::vector<std
       overlays.joints = true;
     } else if (word == "masses") {
       overlays.centresOfMass = true;
+    } else if (word == "arms") {
+      overlays.arms = true;
     } else {
       throw scenes::InputError(
-          fmt::format("--overlays {}: expected contacts, impulses, joints or masses", word));
+          fmt::format("--overlays {}: expected contacts, impulses, joints, masses or arms", word));
     }
   }
   return overlays;
@@ -184,7 +186,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
   command.add_flag("--hud", options.hud, "Show time, counts and running plots in the picture");
   command
       .add_option("--overlays", options.overlays,
-                  "Draw contacts, impulses, joints, masses (a list with commas)")
+                  "Draw contacts, impulses, joints, masses, arms (a list with commas)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LIST");

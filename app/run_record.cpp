@@ -77,6 +77,7 @@ Json describePicture(const render::RendererOptions& options, const render::Rende
   if (overlays.impulses) shown.push_back("impulses");
   if (overlays.joints) shown.push_back("joints");
   if (overlays.centresOfMass) shown.push_back("masses");
+  if (overlays.arms) shown.push_back("arms");
   return {{"width", options.width},
           {"height", options.height},
           {"quality", qualityName(options.quality)},

@@ -96,6 +96,7 @@ void restore(World::Impl& w) {
   w.bodies.velocity = w.last.velocity;
   w.contacts.pairs.clear();
   w.softContacts.clear();
+  undo(w.arms);
   forEachKind(w.kinds, [](auto& kind) {
     for (auto& lambda : kind.set.lambda) lambda = {};
   });
@@ -111,6 +112,7 @@ StepReport World::step() {
   if (w.settings.contact && w.stepCount == 0) takeShapes(w);
   w.last.pose = w.bodies.pose;
   w.last.velocity = w.bodies.velocity;
+  drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
   for (int k = 0; k < w.settings.substeps && !report.notFinite; ++k) {
     if (isStatic) bringToRest(w.bodies);
     moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)

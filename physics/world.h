@@ -24,6 +24,8 @@
 #include "physics/constraints/spring.h"
 #include "physics/constraints/twist_limit.h"
 #include "physics/constraints/volume.h"
+#include "physics/kinematics/arm_def.h"
+#include "physics/kinematics/arm_report.h"
 #include "physics/report.h"
 #include "physics/settings.h"
 
@@ -58,6 +60,7 @@ class World {
   int add(const MotorDef& def);
   int add(const MotorTorqueDef& def);
   void add(const SoftSurfaceDef& def);  // touches rigid bodies, where the World has contacts
+  int add(const ArmDef& def);  // its links are kinematic bodies, with the next ids in a row
   void ignoreCollision(BodyId a,
                        BodyId b);  // joints do this for their bodies unless they `collide`
 
@@ -68,6 +71,7 @@ class World {
   void setVelocity(BodyId body, const Velocity& velocity);
   void setDriveTarget(int drive,
                       const Quat& target);  // orientation of bodies[1] in bodies[0]'s frame
+  void setArmTarget(int arm, const Vec3& target);
   void applyForce(BodyId body, const Vec3& force,
                   const Vec3& torque);  // for the next step only [N, N m]
 
@@ -79,6 +83,7 @@ class World {
   std::vector<KindError> constraintErrors() const;  // one per kind present, in the table's order
   std::vector<ContactReport> contacts() const;      // gap <= margin
   std::vector<JointReport> joints() const;
+  std::vector<ArmReport> arms() const;
   double largestOverlap() const;  // m, over the contacts at the present poses; >= 0
   int contactCount() const;       // points that carry an impulse
   double springEnergy() const;    // J, of every force that has a potential

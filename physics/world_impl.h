@@ -6,6 +6,7 @@
 #include "physics/constraints/soft_contact.h"
 #include "physics/effects/free_motion.h"
 #include "physics/kinds.h"
+#include "physics/kinematics/driven_arm.h"
 #include "physics/methods/conjugate.h"
 #include "physics/methods/joint_system.h"
 #include "physics/methods/linear_gauss_seidel.h"
@@ -19,6 +20,7 @@ struct World::Impl {
   Bodies bodies;
   std::vector<Load> loads;  // for the next step, cleared after it
   Kinds kinds;
+  std::vector<DrivenArm> arms;
   Collider collider;
   Contacts contacts;
   SoftCollider softCollider;

@@ -112,6 +112,27 @@ double fallen(const Sample& s) {
   return s.bodies.empty() ? 0 : countTilted(s) / static_cast<double>(s.bodies.size());
 }
 
+double armError(const Sample& s) { return largestError(s, {physics::ArmDef::kWord}); }
+
+double armTipShare(const Sample& s) {
+  double least = 1;
+  for (const physics::ArmReport& arm : s.simulation.world().arms()) {
+    double all = 0, last = 0;
+    for (size_t k = 0; k < arm.turned.size(); ++k) {
+      all += arm.turned[k];
+      if (k + 2 >= arm.turned.size()) last += arm.turned[k];
+    }
+    least = std::min(least, all > 0 ? last / all : 0);
+  }
+  return least;
+}
+
+double armEffort(const Sample& s) {
+  double sum = 0;
+  for (const physics::ArmReport& arm : s.simulation.world().arms()) sum += arm.effort;
+  return sum;
+}
+
 constexpr About kScene = About::kScene, kEach = About::kEachBody, kGroup = About::kGroup;
 constexpr Metric kMetrics[] = {
     {"joint_error", "m", "the largest gap of a ball_socket or error of a distance, link or rope",
@@ -144,6 +165,13 @@ constexpr Metric kMetrics[] = {
      angularMomentumDrift, nullptr},
     {"overlap", "m", "the deepest overlap of two bodies", kScene, overlap, nullptr},
     {"max_speed", "m/s", "the speed of the fastest body", kScene, maxSpeed, nullptr},
+    {"arm_error", "m", "the largest distance of an arm's tip from its target", kScene, armError,
+     nullptr},
+    {"arm_tip_share", "",
+     "of all that an arm's joints have turned since the start, the part of the last two", kScene,
+     armTipShare, nullptr},
+    {"arm_effort", "kg m^2 rad^2", "the sum of 1/2 dtheta^T M dtheta over all iterations so far",
+     kScene, armEffort, nullptr},
     {"contacts", "", "the contact points that carry an impulse", kScene, contacts, nullptr},
     {"finite", "", "1 while every number is finite, else 0", kScene, finite, nullptr},
     {"height", "m", "y of a body's centre of mass", kEach, nullptr, heightOf},

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/arm_overlay.h"
 #include "scenes/palette.h"
 
 namespace scenes {
@@ -116,6 +117,7 @@ void drawOverlays(const Simulation& simulation, const Overlays& overlays, double
   if (overlays.impulses) drawImpulses(simulation, scale, picture);
   if (overlays.joints) drawJoints(simulation, scale, picture);
   if (overlays.centresOfMass) drawCentres(simulation, picture);
+  drawArms(simulation, overlays, picture);
 }
 
 render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics>& history) {

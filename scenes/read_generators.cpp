@@ -4,6 +4,7 @@
 #include "physics/make/chain.h"
 #include "physics/make/stack.h"
 #include "physics/make/stage.h"
+#include "scenes/read_arm.h"
 #include "scenes/read_body.h"
 #include "scenes/recipe.h"
 
@@ -48,6 +49,7 @@ constexpr Word kWords[] = {
     word<physics::BowlDef, Pattern::kSingle>(),
     word<physics::StairsDef, Pattern::kSingle>(),
     {"ragdoll", readRagdoll},
+    {"arm", readArm},  // the last: it may follow any body
 };
 
 }  // namespace

@@ -30,6 +30,19 @@ struct PoseScript {
   std::vector<Key> keys;  // times increase
 };
 
+// The target of an arm over time, or the body that it is.
+struct ArmScript {
+  struct Key {
+    double time = 0;  // s
+    physics::Vec3 at = physics::Vec3::Zero();
+    bool jump =
+        false;  // the target is here from `time` on; else it has come smoothly from the last
+  };
+  int arm = -1;
+  std::vector<Key> keys;        // times increase
+  physics::BodyId follow = -1;  // the target is where this body will be if it goes on as it is
+};
+
 // A world under construction and all that goes with it.
 struct Built {
   explicit Built(const physics::Settings& settings);
@@ -38,6 +51,7 @@ struct Built {
   std::map<std::string, physics::BodyId> ids;  // names, and second names such as "chain.end"
   Simulation::Appearance appearance;
   std::vector<PoseScript> scripts;
+  std::vector<ArmScript> armScripts;
   int families = 0;  // hues given out so far
 
   // Names and colours the body; throws std::invalid_argument where the name is taken.

@@ -123,6 +123,10 @@ void readOverlays(TableReader& reader, Overlays& overlays) {
   reader(Field{"impulses"}, overlays.impulses);
   reader(Field{"joints"}, overlays.joints);
   reader(Field{"centres_of_mass"}, overlays.centresOfMass);
+  reader(Field{"arms"}, overlays.arms);
+  reader(Field{"arm_targets"}, overlays.armTargets);
+  reader(Field{"arm_tips"}, overlays.armTips);
+  reader(Field{"arm_centres"}, overlays.armCentres);
 }
 
 // An override may shorten the scene: frames past its end are an error of the file alone.

@@ -12,16 +12,50 @@ namespace {
 // 0..1 with zero slope at both ends, so that a drive is not jerked at a key.
 double smooth(double t) { return t * t * (3 - 2 * t); }
 
-void follow(const PoseScript& script, double time, physics::World& world) {
-  const auto& keys = script.keys;
-  const auto after = std::find_if(keys.begin(), keys.end(),
-                                  [&](const PoseScript::Key& key) { return key.time > time; });
+// The keys before and after a time, and how much of the way between them is done; the same key
+// twice outside their span.
+template <class Key>
+struct Between {
+  const Key &a, &b;
+  double part;
+};
+
+template <class Key>
+Between<Key> between(const std::vector<Key>& keys, double time) {
+  const auto after =
+      std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return key.time > time; });
   const auto& b = after == keys.end() ? keys.back() : *after;
   const auto& a = after == keys.begin() ? b : *(after - 1);
-  const double part = b.time > a.time ? smooth((time - a.time) / (b.time - a.time)) : 1;
+  return {a, b, b.time > a.time ? smooth((time - a.time) / (b.time - a.time)) : 1};
+}
+
+void follow(const PoseScript& script, double time, physics::World& world) {
+  const auto [a, b, part] = between(script.keys, time);
   for (size_t i = 0; i < script.drives.size(); ++i) {
     world.setDriveTarget(script.drives[i], a.targets[i].slerp(part, b.targets[i]));
   }
+}
+
+void follow(const ArmScript& script, double time, physics::World& world) {
+  if (script.follow >= 0) {
+    const physics::Vec3& v = world.bodies().velocity[script.follow].v;
+    const physics::Vec3& x = world.bodies().pose[script.follow].x;
+    return world.setArmTarget(script.arm, x + world.settings().dt * v);
+  }
+  const auto [a, b, part] = between(script.keys, time);
+  world.setArmTarget(script.arm, a.at + (b.jump && part < 1 ? 0 : part) * (b.at - a.at));
+}
+
+// The arm that is furthest from its target, beside the errors of the constraints.
+physics::KindError errorOf(const std::vector<physics::ArmReport>& arms) {
+  physics::KindError error{physics::ArmDef::kWord, "m"};
+  for (const physics::ArmReport& arm : arms) {
+    if (error.worst < 0 || arm.error > error.largest) error.worst = error.count;
+    error.largest = std::max(error.largest, arm.error);
+    error.sum += arm.error;
+    ++error.count;
+  }
+  return error;
 }
 
 }  // namespace
@@ -53,6 +87,9 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 physics::StepReport Simulation::advance() {
   const double arrival = static_cast<double>(impl_->frame + 1) / impl_->scene.fps;
   for (const PoseScript& script : impl_->built.scripts) follow(script, arrival, impl_->built.world);
+  for (const ArmScript& script : impl_->built.armScripts) {
+    follow(script, arrival, impl_->built.world);
+  }
   physics::StepReport report = impl_->built.world.step();
   impl_->iterations = report.iterations;
   impl_->finite = !report.notFinite;
@@ -78,6 +115,8 @@ FrameMetrics Simulation::metrics() const {
   metrics.linearMomentum = measures.linearMomentum;
   metrics.angularMomentum = measures.angularMomentum;
   metrics.errors = world().constraintErrors();
+  const std::vector<physics::ArmReport> arms = world().arms();
+  if (!arms.empty()) metrics.errors.push_back(errorOf(arms));
   metrics.overlap = world().largestOverlap();
   for (const physics::Velocity& velocity : world().bodies().velocity) {
     metrics.maxSpeed = std::max(metrics.maxSpeed, velocity.v.norm());

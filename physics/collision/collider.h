@@ -44,7 +44,7 @@ class Collider {
   Collider(Collider&&) noexcept;
   Collider& operator=(Collider&&) noexcept;
 
-  // `movable` false: static; two such bodies are never a pair. Ids are added in increasing order.
+  // `movable` false: nothing pushes it; two such bodies are never a pair. Ids are added in increasing order.
   void add(BodyId body, const Shape& shape, bool movable);
   void ignore(BodyId a, BodyId b);  // this pair never touches (jointed neighbours)
 

@@ -93,6 +93,17 @@ TEST(View, ShowsCentresOfMassOnRequest) {
   EXPECT_EQ(pictureOf(ball("a"), options).dots.size(), 1u);
 }
 
+TEST(View, NamesTheVectorsOfAnArmOnRequest) {
+  const std::string arm = "[[arm]]\nat = [0, 0, 0]\ncount = 2\nlength = 1\ntarget = [1, 1, 0]\n";
+  ViewOptions options;
+  EXPECT_TRUE(pictureOf(arm, options).labels.empty());
+  options.overlays.arms = true;
+  std::vector<std::string> texts;
+  for (const render::Label& label : pictureOf(arm, options).labels) texts.push_back(label.text);
+  EXPECT_EQ(texts,
+            (std::vector<std::string>{"d₁₁", "d₁₂", "s₁", "s₂", "θ₁", "θ₂", "δx", "target"}));
+}
+
 TEST(View, ShowsTheTitleInTheHud) {
   ViewOptions options;
   options.hud = true;
