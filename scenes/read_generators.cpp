@@ -48,6 +48,9 @@ constexpr Word kWords[] = {
     word<physics::BowlDef, Pattern::kSingle>(),
     word<physics::StairsDef, Pattern::kSingle>(),
     {"ragdoll", readRagdoll},
+    {"soft_body", readSoftBody},
+    {"cloth", readCloth},
+    {"rope", readRope},
 };
 
 }  // namespace
