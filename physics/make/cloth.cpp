@@ -169,7 +169,7 @@ SoftParts add(World& world, const ClothDef& def) {
   surface.links = threads(grid);
   surface.radius = def.radius;
   surface.friction = world.bodies().friction[parts.nodes[0]];
-  world.addSoft(surface);
+  world.add(surface);
   return parts;
 }
 

@@ -83,7 +83,7 @@ void addAir(World& world, const AirDrag& air, const std::vector<BodyId>& nodes) 
   for (const BodyId node : nodes) {
     if (world.bodies().motion[node] != Motion::kDynamic) continue;
     DragDef drag;
-    drag.body = node;
+    drag.bodies = {node};
     drag.coefficient = air.coefficient;
     drag.wind = air.wind;
     world.add(drag);
@@ -96,7 +96,7 @@ void touch(World& world, const RopeDef& def, const std::vector<BodyId>& nodes) {
   for (std::size_t i = 1; i < nodes.size(); ++i) surface.links.push_back({nodes[i - 1], nodes[i]});
   surface.radius = def.radius;
   surface.friction = world.bodies().friction[nodes[0]];
-  world.addSoft(surface);
+  world.add(surface);
 }
 
 }  // namespace

@@ -24,12 +24,14 @@ bool anyMoves(const World& world, std::span<const BodyId> bodies) {
   return false;
 }
 
-void addEdge(World& world, BodyId a, BodyId b, const EdgeMatter& matter) {
+void addEdge(World& world, BodyId a, BodyId b, const EdgeMatter& matter,
+             std::optional<double> length) {
   const std::array<BodyId, 2> bodies{a, b};
   if (matter.edges == Edges::kNone || !anyMoves(world, bodies)) return;
   if (matter.edges == Edges::kLinks) {
     LinkDef link;
     link.bodies = bodies;
+    link.length = length;
     link.rope = matter.stretchOnly;
     link.compliance = matter.compliance;
     world.add(link);
@@ -37,6 +39,7 @@ void addEdge(World& world, BodyId a, BodyId b, const EdgeMatter& matter) {
   }
   SpringDef spring;
   spring.bodies = bodies;
+  spring.restLength = length;
   spring.stiffness = matter.stiffness;
   spring.damping = matter.damping;
   world.add(spring);

@@ -83,8 +83,9 @@ double nodeMassOf(const SoftMatter& matter, double volume, int count);
 // A point; it never moves where it is `fixed`.
 BodyId addNode(World& world, const Vec3& at, double mass, bool fixed, const SoftMatter& matter);
 
-// A link or a spring of the length at the start, unless neither end can move.
-void addEdge(World& world, BodyId a, BodyId b, const EdgeMatter& matter);
+// A link or a spring, unless neither end can move; without a length it is as at the start.
+void addEdge(World& world, BodyId a, BodyId b, const EdgeMatter& matter,
+             std::optional<double> length = {});
 
 // True where one of the bodies can move.
 bool anyMoves(const World& world, std::span<const BodyId> bodies);

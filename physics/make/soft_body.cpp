@@ -52,10 +52,12 @@ std::vector<bool> fixedNodes(const TetMesh& mesh, SoftPins pins) {
 void addVolumes(World& world, const SoftBodyDef& def, const TetMesh& mesh,
                 const std::vector<BodyId>& nodes) {
   if (!def.volume) return;
-  for (const auto& [a, b, c, d] : mesh.tets) {
+  for (const std::array<int, 4>& tet : mesh.tets) {
     VolumeDef volume;
-    volume.bodies = {nodes[a], nodes[b], nodes[c], nodes[d]};
-    volume.compliance = def.volumeCompliance;
+    for (int i = 0; i < 4; ++i) volume.bodies[i] = nodes[tet[i]];
+    volume.volume = volumeOf(mesh, tet);
+    // c = 6 (V - V0) with energy K (V - V0)^2 / (2 V0)
+    if (def.bulkModulus) volume.compliance = 36 * *volume.volume / *def.bulkModulus;
     if (anyMoves(world, volume.bodies)) world.add(volume);
   }
 }
@@ -75,7 +77,7 @@ void touch(World& world, const SoftBodyDef& def, const SoftParts& parts) {
   }
   surface.radius = def.radius;
   surface.friction = world.bodies().friction[parts.nodes[0]];
-  world.addSoft(surface);
+  world.add(surface);
 }
 
 }  // namespace
@@ -86,13 +88,14 @@ SoftParts add(World& world, const SoftBodyDef& def) {
   const std::vector<bool> fixed = fixedNodes(mesh, def.pins);
   SoftParts parts;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-    const Vec3 place = def.place({mesh.nodes[i], Quat::Identity()}).x;
+    const Vec3 place = def.place({mesh.nodes[i].cwiseProduct(def.startScale), Quat::Identity()}).x;
     parts.nodes.push_back(addNode(world, place, masses[i], fixed[i], def.matter));
     if (!fixed[i]) world.setVelocity(parts.nodes.back(), def.velocity);
   }
   parts.triangles = skinOf(mesh);
   for (const auto& [a, b] : edgesOf(mesh)) {
-    addEdge(world, parts.nodes[a], parts.nodes[b], def.edge);
+    addEdge(world, parts.nodes[a], parts.nodes[b], def.edge,
+            (mesh.nodes[a] - mesh.nodes[b]).norm());
   }
   addVolumes(world, def, mesh, parts.nodes);
   touch(world, def, parts);

@@ -31,24 +31,26 @@ struct SoftBodyDef {
   double scale = 1;
   std::optional<TetBox> box;  // or
   std::optional<TetMesh> mesh;
+  Vec3 startScale = Vec3::Ones();  // along the mesh's axes: it starts deformed by this
   SoftMatter matter;
   double radius = 0.01;  // m, of the skin
   EdgeMatter edge{Edges::kSprings, 0, false, 1000, 1};
   bool volume = true;
-  double volumeCompliance = 0;
+  std::optional<double> bulkModulus;  // Pa; absent: volumes are kept
   SoftPins pins = SoftPins::kNone;
   Velocity velocity;
   template <class V, class D>
   static void fields(V& v, D& d) {
     Placement::fields(v, d.place);
     v(Field{"scale", Unit::kNone, false, kMorePositive}, d.scale);
+    v(Field{"start_scale", Unit::kNone, false, kMorePositive}, d.startScale);
     v(Field{"box"}, d.box);
     v(Field{"mesh"}, d.mesh);
     SoftMatter::fields(v, d.matter);
     v(Field{"radius", Unit::kMetre, false, kMorePositive}, d.radius);
     EdgeMatter::fields(v, d.edge);
     v(Field{"volume"}, d.volume);
-    v(Field{"volume_compliance", Unit::kNone, false, 0}, d.volumeCompliance);
+    v(Field{"bulk_modulus", Unit::kNone, false, kMorePositive}, d.bulkModulus);
     v(Field{"pins"}, d.pins);
     v(Field{"velocity"}, d.velocity.v);
   }

@@ -149,8 +149,8 @@ TEST(SceneSoft, RefusesSoftBodiesThatMakeNoSense) {
           "2:23: soft_body.box.size: expected a number > 0 [m], got 0");
   refuses("[[soft_body]]\nbox = { size = [1, 1, 1], cells = [1, 0, 1] }\n",
           "2:39: soft_body.box.cells: expected an integer in [1, 1000], got 0");
-  refuses(kSoft + "volume_compliance = -1\n",
-          "3:21: soft_body.volume_compliance: expected a number >= 0, got -1");
+  refuses(kSoft + "bulk_modulus = 0\n",
+          "3:16: soft_body.bulk_modulus: expected a number > 0, got 0");
   refuses(kSoft + "edges = \"links\"\nstiffness = 3\n",
           "4:13: soft_body.stiffness: expected edges = 'springs' as well");
   refuses(kSoft + "scale = 0\n", "3:9: soft_body.scale: expected a number > 0, got 0");
