@@ -113,6 +113,6 @@ void World::add(const SoftSurfaceDef& def) {
   for (const auto& [from, to] : def.links) add(from, to);
 }
 
-void World::ignoreCollision(BodyId a, BodyId b) { impl_->collider.ignore(a, b); }
+void World::ignoreCollision(BodyId a, BodyId b) { impl_->ignore(a, b); }
 
 }  // namespace physics

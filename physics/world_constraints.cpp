@@ -45,7 +45,7 @@ int append(World::Impl& w, const D& def, const C& item) {
     }
   });
   if constexpr (requires { def.collide; }) {
-    if (!def.collide) w.collider.ignore(def.bodies[0], def.bodies[1]);
+    if (!def.collide) w.ignore(def.bodies[0], def.bodies[1]);
   }
   return index;
 }

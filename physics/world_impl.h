@@ -38,6 +38,11 @@ struct World::Impl {
     std::vector<Velocity> velocity;
   } last;
 
+  void ignore(BodyId a, BodyId b) {
+    collider.ignore(a, b);
+    softCollider.ignore(a, b);
+    softCollider.ignore(b, a);
+  }
   double substepLength() const { return settings.dt / settings.substeps; }
 };
 

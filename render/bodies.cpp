@@ -24,21 +24,6 @@ std::size_t levelFor(float radiusInPixels) {
   return level;
 }
 
-// sRGB to linear by a polynomial: no libm, whose last bit depends on the CPU. Error below 1e-3.
-float linear(float c) { return c * (c * (c * 0.305306011f + 0.682171111f) + 0.012522878f); }
-
-template <typename T>
-void fillBuffer(GLenum target, GLuint buffer, const std::vector<T>& data, GLenum usage) {
-  glBindBuffer(target, buffer);
-  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
-}
-
-void setAttribute(GLuint index, int size, std::size_t stride, std::size_t offset) {
-  glEnableVertexAttribArray(index);
-  glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
-                        reinterpret_cast<const void*>(offset));
-}
-
 }  // namespace
 
 Bodies::Bodies() {
@@ -146,11 +131,11 @@ void Bodies::fillBatches(const Picture& picture) {
     const Vec3f& p = instance.position;
     const Eigen::Vector4f turn = instance.orientation.normalized().coeffs();
     const Vec3f scale = capsule ? Vec3f::Constant(instance.size.x()) : instance.size;
-    const Color& c = instance.color;
+    const Color c = linearColor(instance.color);
     data_.push_back({{p.x(), p.y(), p.z(), capsule ? instance.size.y() / 2 : 0.0f},
                      {turn.x(), turn.y(), turn.z(), turn.w()},
                      {scale.x(), scale.y(), scale.z(), instance.marked ? 1.0f : 0.0f},
-                     {linear(c.x()), linear(c.y()), linear(c.z()), c.w()}});
+                     {c.x(), c.y(), c.z(), c.w()}});
     const bool same = !batches_.empty() && batches_.back().shape == s.shape &&
                       batches_.back().opaque == s.opaque && batches_.back().casts == s.casts;
     if (!same) batches_.push_back({s.shape, data_.size() - 1, 0, s.opaque, s.casts});

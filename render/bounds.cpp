@@ -37,17 +37,16 @@ Bounds screenBoundsOf(const Picture& picture, const Frame& frame) {
   Bounds bounds;
   if (std::any_of(picture.lines.begin(), picture.lines.end(), drawnAmongBodies))
     bounds.include(kLow, kHigh);
-  for (const Instance& instance : picture.instances)
-    includeBall(bounds, frame, instance.position, radiusOf(instance));
+  for (const Ball& ball : frame.balls) includeBall(bounds, frame, ball.center, ball.radius);
   return bounds;
 }
 
-Bounds shadowBoundsOf(const Picture& picture, const Frame& frame) {
+Bounds shadowBoundsOf(const Frame& frame) {
   Bounds bounds;
   const float perMetre = frame.block.toShadow.block<1, 3>(0, 0).norm();
-  for (const Instance& instance : picture.instances) {
-    const Eigen::Vector4f at = frame.block.toShadow * instance.position.homogeneous();
-    const float radius = radiusOf(instance) * perMetre;
+  for (const Ball& ball : frame.balls) {
+    const Eigen::Vector4f at = frame.block.toShadow * ball.center.homogeneous();
+    const float radius = ball.radius * perMetre;
     bounds.include(at.head<2>().array() - radius, at.head<2>().array() + radius);
   }
   return bounds;

@@ -14,9 +14,9 @@ struct Bounds {  // shares of the width and height, from the lower left; low > h
   void include(const Eigen::Array2f& from, const Eigen::Array2f& to);
 };
 
-// Encloses the bodies; all of the screen when one reaches behind the near plane or lines are drawn
-// among the bodies.
+// Encloses the bodies and surfaces; all of the screen when one reaches behind the near plane or
+// lines are drawn among the bodies.
 Bounds screenBoundsOf(const Picture& picture, const Frame& frame);
-Bounds shadowBoundsOf(const Picture& picture, const Frame& frame);
+Bounds shadowBoundsOf(const Frame& frame);
 
 }  // namespace render

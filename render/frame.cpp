@@ -25,6 +25,27 @@ void checkInstances(const Picture& picture) {
   }
 }
 
+bool allFinite(const std::vector<Vec3f>& points) {
+  return std::all_of(points.begin(), points.end(), [](const Vec3f& p) { return p.allFinite(); });
+}
+
+void checkSurfaces(const Picture& picture) {
+  for (std::size_t i = 0; i < picture.surfaces.size(); ++i) {
+    const Surface& s = picture.surfaces[i];
+    const std::string name = "surface " + std::to_string(i);
+    requireFinite(allFinite(s.positions) && s.color.allFinite() && s.backColor.allFinite() &&
+                      std::isfinite(s.offset),
+                  name);
+    if (s.indices.size() % 3 != 0 || (!s.grid.empty() && s.grid.size() != s.positions.size()))
+      throw std::invalid_argument(
+          "picture: " + name + ": three indices per triangle and a grid for all positions or none");
+    for (const std::uint32_t index : s.indices)
+      if (index >= s.positions.size())
+        throw std::invalid_argument("picture: " + name + ": index " + std::to_string(index) +
+                                    " of " + std::to_string(s.positions.size()) + " positions");
+  }
+}
+
 void checkCamera(const Picture& picture) {
   const Camera& camera = picture.camera;
   requireFinite(camera.eye.allFinite() && camera.target.allFinite() && camera.up.allFinite(),
@@ -59,14 +80,32 @@ void setCamera(Frame& frame, const Picture& picture) {
       static_cast<float>(frame.height) / (2 * std::tan(camera.fieldOfViewDegrees * kPi / 360));
 }
 
+Ball ballOf(const Surface& surface) {
+  Vec3f low = surface.positions[0], high = low;
+  for (const Vec3f& p : surface.positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return {0.5f * (low + high), 0.5f * (high - low).norm() + std::abs(surface.offset)};
+}
+
+std::vector<Ball> ballsOf(const Picture& picture) {
+  std::vector<Ball> balls;
+  for (const Instance& instance : picture.instances)
+    balls.push_back({instance.position, radiusOf(instance)});
+  for (const Surface& surface : picture.surfaces)
+    if (!surface.positions.empty()) balls.push_back(ballOf(surface));
+  return balls;
+}
+
 // Near and far planes just around what is there, so that depth stays precise.
 void setProjection(Frame& frame, const Picture& picture) {
   float nearest = frame.depthOf(picture.focusCenter) - picture.focusRadius;
   float farthest = frame.depthOf(picture.focusCenter) + picture.focusRadius;
-  for (const Instance& instance : picture.instances) {
-    const float depth = frame.depthOf(instance.position), radius = radiusOf(instance);
-    nearest = std::min(nearest, depth - radius);
-    farthest = std::max(farthest, depth + radius);
+  for (const Ball& ball : frame.balls) {
+    const float depth = frame.depthOf(ball.center);
+    nearest = std::min(nearest, depth - ball.radius);
+    farthest = std::max(farthest, depth + ball.radius);
   }
   farthest = std::max(farthest, 1e-3f) * 1.01f;
   frame.nearest = std::max(nearest * 0.99f, farthest * 2e-4f);
@@ -161,7 +200,9 @@ float radiusOf(const Instance& instance) {
 Frame frameOf(const Picture& picture, const RendererOptions& options, const Detail& detail) {
   checkCamera(picture);
   checkInstances(picture);
+  checkSurfaces(picture);
   Frame frame;
+  frame.balls = ballsOf(picture);
   frame.width = options.width * detail.supersample;
   frame.height = options.height * detail.supersample;
   frame.scale = static_cast<float>(frame.height) / 720.0f;

@@ -33,6 +33,11 @@ struct FrameBlock {
       pixels;  // width, height of the scene in pixels, edge width in px, radius in focus
 };
 
+struct Ball {
+  Vec3f center = Vec3f::Zero();
+  float radius = 0;
+};
+
 struct Frame {
   FrameBlock block;
   int width = 0, height = 0;              // of the scene as drawn, supersampled
@@ -41,12 +46,13 @@ struct Frame {
   float pixelsPerMetre = 0;               // of something one metre away
   float scale = 1;                        // scene pixels per pixel of a picture of 720 lines
   bool groundDrawn = false;
+  std::vector<Ball> balls;  // around all bodies and surfaces
 
   float depthOf(const Vec3f& point) const { return ahead.dot(point - eye); }
 };
 
 // Throws std::invalid_argument when the picture has a number that is not finite, an instance
-// without its mesh, or a camera that looks nowhere.
+// without its mesh, a surface whose lists do not fit, or a camera that looks nowhere.
 Frame frameOf(const Picture& picture, const RendererOptions& options, const Detail& detail);
 
 // A ball around an instance: radius about its position.

@@ -134,4 +134,19 @@ Geometry geometryOf(const Mesh& mesh) {
   return geometry;
 }
 
+std::vector<Vec3f> smoothNormals(const std::vector<Vec3f>& positions,
+                                 const std::vector<std::uint32_t>& triangles) {
+  std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
+    const Vec3f twiceArea = (positions[b] - positions[a]).cross(positions[c] - positions[a]);
+    for (const std::uint32_t corner : {a, b, c}) normals[corner] += twiceArea;
+  }
+  for (Vec3f& normal : normals) {
+    const float length = normal.norm();
+    normal = length > 0 ? (normal / length).eval() : Vec3f::UnitY();
+  }
+  return normals;
+}
+
 }  // namespace render

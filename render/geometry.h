@@ -27,4 +27,9 @@ Geometry unitCylinder(int segments);  // diameter 1, length 1 along y
 // Throws std::invalid_argument when counts differ or an index is out of range.
 Geometry geometryOf(const Mesh& mesh);
 
+// One unit normal per position: the sum over its triangles, weighed by their areas. Up where that
+// is zero.
+std::vector<Vec3f> smoothNormals(const std::vector<Vec3f>& positions,
+                                 const std::vector<std::uint32_t>& triangles);
+
 }  // namespace render

@@ -47,6 +47,9 @@ void setFilter(GLenum filter) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
+// By a polynomial: no libm, whose last bit depends on the CPU. Error below 1e-3.
+float linear(float c) { return c * (c * (c * 0.305306011f + 0.682171111f) + 0.012522878f); }
+
 }  // namespace
 
 GLuint makeProgram(const char* vertex, const char* fragment, const std::string& defines) {
@@ -79,6 +82,16 @@ GLuint makeVertexArray() {
   GLuint array = 0;
   glGenVertexArrays(1, &array);
   return array;
+}
+
+void setAttribute(GLuint index, int size, std::size_t stride, std::size_t offset) {
+  glEnableVertexAttribArray(index);
+  glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                        reinterpret_cast<const void*>(offset));
+}
+
+Color linearColor(const Color& color) {
+  return {linear(color.x()), linear(color.y()), linear(color.z()), color.w()};
 }
 
 GLuint makeTexture(GLenum internalFormat, int width, int height, GLenum filter) {

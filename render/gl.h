@@ -6,6 +6,7 @@
 #include <GL/glcorearb.h>
 
 #include <string>
+#include <vector>
 
 #include "render/bounds.h"
 
@@ -17,6 +18,16 @@ GLuint makeProgram(const char* vertex, const char* fragment, const std::string& 
 
 GLuint makeBuffer();
 GLuint makeVertexArray();
+template <typename T>
+void fillBuffer(GLenum target, GLuint buffer, const std::vector<T>& data, GLenum usage) {
+  glBindBuffer(target, buffer);
+  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
+}
+// Attribute `index` of the array that is bound: `size` floats, from the buffer that is bound.
+void setAttribute(GLuint index, int size, std::size_t stride, std::size_t offset);
+
+// sRGB to linear, alpha as it is.
+Color linearColor(const Color& color);
 
 // A texture of one level, clamped to its edge. `filter` is GL_NEAREST or GL_LINEAR.
 GLuint makeTexture(GLenum internalFormat, int width, int height, GLenum filter);

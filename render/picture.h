@@ -36,6 +36,18 @@ struct Instance {
       false;  // a quiet stripe/patch pattern so that a turning sphere or cylinder shows its turning
 };
 
+// A sheet of triangles in world coordinates, for what changes its form from frame to frame: a
+// cloth, the skin of a soft body. Drawn from both sides, with smooth normals made from the
+// triangles.
+struct Surface {
+  std::vector<Vec3f> positions;
+  std::vector<std::uint32_t> indices;  // triangles, counterclockwise from the front
+  std::vector<Eigen::Vector2f> grid;   // by position: fine lines run through the whole numbers
+  bool edges = false;                  // without a grid: fine lines along all edges
+  float offset = 0;                    // m, drawn this far out along the normals
+  Color color{0.6f, 0.6f, 0.6f, 1.0f}, backColor{0.6f, 0.6f, 0.6f, 1.0f};
+};
+
 struct Camera {
   Vec3f eye{4, 3, 6}, target{0, 1, 0}, up{0, 1, 0};
   float fieldOfViewDegrees = 35;  // vertical
@@ -99,6 +111,7 @@ struct Picture {
   Light light;
   Ground ground;
   std::vector<Instance> instances;
+  std::vector<Surface> surfaces;
   std::vector<Line> lines;
   std::vector<Dot> dots;
   std::vector<Label> labels;

@@ -23,7 +23,7 @@ class Hasher {
   void add(T value) { XXH3_64bits_update(state_.get(), &value, sizeof value); }
   template <int kSize>
   void add(const Eigen::Matrix<float, kSize, 1>& v) {
-    for (int i = 0; i < kSize; ++i) add(v[i]);
+    XXH3_64bits_update(state_.get(), v.data(), kSize * sizeof(float));
   }
   void add(const Eigen::Quaternionf& q) { add(Eigen::Vector4f(q.coeffs())); }
   void add(const std::string& text) {
@@ -37,7 +37,11 @@ class Hasher {
   template <typename T>
   void add(const std::vector<T>& values) {
     add(static_cast<std::uint64_t>(values.size()));
-    for (const T& value : values) add(value);
+    if constexpr (std::is_arithmetic_v<T>) {
+      XXH3_64bits_update(state_.get(), values.data(), values.size() * sizeof(T));
+    } else {
+      for (const T& value : values) add(value);
+    }
   }
   template <typename... T>
   void addAll(const T&... values) {
@@ -51,6 +55,9 @@ class Hasher {
   void add(const Instance& v) {
     addAll(v.primitive, v.mesh, v.size, v.position, v.orientation, v.color, v.marked);
   }
+  void add(const Surface& v) {
+    addAll(v.positions, v.indices, v.grid, v.edges, v.offset, v.color, v.backColor);
+  }
   void add(const Camera& v) { addAll(v.eye, v.target, v.up, v.fieldOfViewDegrees); }
   void add(const Ground& v) { addAll(v.visible, v.height, v.spacing, v.color); }
   void add(const Light& v) { addAll(v.direction, v.shadows); }
@@ -63,6 +70,7 @@ class Hasher {
   void add(const Picture& v) {
     addAll(v.camera, v.light, v.ground, v.instances, v.lines, v.dots, v.labels, v.hud, v.caption,
            v.background, v.focusCenter, v.focusRadius);
+    if (!v.surfaces.empty()) add(v.surfaces);  // pictures without any keep their hash
   }
 
  private:

@@ -14,6 +14,7 @@
 #include "render/shaders.h"
 #include "render/shadow.h"
 #include "render/strokes.h"
+#include "render/surfaces.h"
 
 namespace render {
 namespace {
@@ -55,6 +56,7 @@ struct Renderer::Impl {
   RendererOptions options;
   Detail detail;
   Bodies bodies;
+  Surfaces surfaces;
   Shadow shadow;
   Floor floor;
   Strokes strokes;
@@ -125,7 +127,9 @@ void Renderer::Impl::drawBodies(const Bounds& bounds) {
   glClear(GL_DEPTH_BUFFER_BIT | (smooth ? GL_COLOR_BUFFER_BIT : 0u));
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_CLIP_DISTANCE0);
+  surfaces.drawOpaque();
   bodies.draw();
+  surfaces.drawTranslucent();
   glDisable(GL_CLIP_DISTANCE0);
   strokes.drawHidden();
   glDisable(GL_DEPTH_TEST);
@@ -180,8 +184,9 @@ const Image& Renderer::draw(const Picture& picture) {
   my.context.makeCurrent();
   my.upload(frame);
   my.bodies.arrange(picture, frame);
+  my.surfaces.arrange(picture, frame);
   my.strokes.arrange(picture, frame);
-  if (picture.light.shadows) my.shadow.draw(my.bodies, frame, shadowBoundsOf(picture, frame));
+  if (picture.light.shadows) my.shadow.draw(my.bodies, my.surfaces, frame);
   my.drawGround(frame);
   my.drawBodies(screenBoundsOf(picture, frame));
   my.finishScene();

@@ -47,31 +47,67 @@ void main() {
 }
 )";
 
+const char* const kSurfaceVertex = FRAME_BLOCK R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 cell;  // lines run through its whole numbers
+out float gl_ClipDistance[1];
+#ifndef CASTER
+out vec3 vWorld, vNormal, vCell;
+#endif
+void main() {
+  gl_ClipDistance[0] = ground.y > 0.0 ? position.y - ground.x : 1.0;
+#ifdef CASTER
+  vec3 inShadow = (toShadow * vec4(position, 1.0)).xyz;
+  gl_Position = vec4(2.0 * inShadow - 1.0, 1.0);
+#else
+  gl_Position = toClip * vec4(position, 1.0);
+  vWorld = position;
+  vNormal = normal;
+  vCell = cell;
+#endif
+}
+)";
+
 const char* const kCasterFragment = "void main() {}\n";
 
 // Key light with soft shadow, sky and floor as ambient, a little gloss, dark edges.
 const char* const kBodyFragment = FRAME_BLOCK R"(
 uniform sampler2DShadow shadowMap;
+#ifdef SURFACE
+uniform vec4 tints[2];  // front and back, linear
+in vec3 vWorld, vNormal, vCell;
+#else
 in vec3 vWorld, vNormal, vBody, vInShadow;
 in vec2 vEdge;
 flat in vec4 vTint;
 flat in float vMarked;
+#endif
 out vec4 color;
 
 // Taps on a square. Two opposite corners that agree speak for all; and the loop's length is data:
 // a software rasteriser leaves it as soon as no pixel of a group needs more.
-float lit(float facing) {
+float lit(float facing, vec3 inShadow) {
   float side = shadow.w, sum = 0.0;
   int count = facing > 0.0 ? int(side * side) : 0;
   for (int i = 0; i < count; ++i) {
     float k = i == 0 ? 0.0 : float(count - i), row = floor((k + 0.5) / side);
     vec2 tap = (vec2(k - row * side, row) - 0.5 * (side - 1.0)) * shadow.z;
-    sum += textureLod(shadowMap, vec3(vInShadow.xy + tap, vInShadow.z), 0.0);
+    sum += textureLod(shadowMap, vec3(inShadow.xy + tap, inShadow.z), 0.0);
     if (i == 1 && abs(sum - 1.0) == 1.0) return 0.5 * sum;
   }
   return count > 0 ? sum / float(count) : 1.0;
 }
 
+#ifdef SURFACE
+float lineDarkness() {
+  vec3 perPixel = max(fwidth(vCell), vec3(1e-6));
+  vec3 away = abs(fract(vCell + 0.5) - 0.5) / perPixel;
+  vec3 line = clamp(vec3(0.5 * pixels.z + 0.5) - away, 0.0, 1.0);
+  line *= clamp(1.6 - 5.0 * perPixel, 0.0, 1.0);  // gone before they run together
+  return max(max(line.x, line.y), line.z);
+}
+#else
 float edgeDarkness() {
   vec2 width = max(fwidth(vEdge), vec2(1e-6));
   vec2 away = max(vec2(1.0) - abs(vEdge), vec2(0.0)) / width;
@@ -84,6 +120,7 @@ float mark() {
   vec3 side = clamp(vBody / max(fwidth(vBody), vec3(1e-9)), -1.0, 1.0);
   return 0.5 + 0.5 * side.x * side.y * side.z;
 }
+#endif
 
 vec3 encoded(vec3 linear) {  // sRGB by three square roots, within 0.003
   vec3 a = sqrt(linear), b = sqrt(a), c = sqrt(b);
@@ -92,20 +129,31 @@ vec3 encoded(vec3 linear) {  // sRGB by three square roots, within 0.003
 
 void main() {
   vec3 n = normalize(vNormal), toEye = normalize(eye.xyz - vWorld);
+#ifdef SURFACE
+  vec4 tint = tints[gl_FrontFacing ? 0 : 1];
+  n = gl_FrontFacing ? n : -n;
+  vec3 inShadow = (toShadow * vec4(vWorld + n * shadow.y, 1.0)).xyz;
+  vec3 albedo = tint.rgb * (1.0 - 0.45 * lineDarkness());
+  float dark = 0.0;
+#else
+  vec4 tint = vTint;
   if (dot(n, toEye) < 0.0 && !gl_FrontFacing) n = -n;
+  vec3 inShadow = vInShadow;
+  vec3 albedo = tint.rgb * (1.0 - 0.45 * vMarked * mark());
+  float dark = edgeDarkness();
+#endif
   float facing = dot(n, towardLight.xyz);
-  float key = max(facing, 0.0) * (shadow.x > 0.0 ? lit(facing) : 1.0);
+  float key = max(facing, 0.0) * (shadow.x > 0.0 ? lit(facing, inShadow) : 1.0);
   float height = max(vWorld.y - ground.x, 0.0) / (0.12 * pixels.w);
   float contact = ground.y > 0.0 ? (0.5 - 0.5 * n.y) / (1.0 + height * height) : 0.0;
   float aside = n.x * towardLight.z - n.z * towardLight.x;  // faces that share the key light differ
   float sky = 0.46 + 0.13 * n.y + 0.20 * aside + 0.06 * max(dot(n, toEye), 0.0);
   vec3 ambient = vec3(0.97, 0.99, 1.03) * sky * (1.0 - 0.55 * contact);
-  vec3 albedo = vTint.rgb * (1.0 - 0.45 * vMarked * mark());
   float gloss = max(dot(n, normalize(toEye + towardLight.xyz)), 0.0);
   gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss;
   vec3 light = albedo * (ambient + vec3(0.61, 0.60, 0.58) * key) + 0.07 * gloss * key;
-  light *= 1.0 - 0.5 * edgeDarkness();
-  color = vec4(encoded(light) * vTint.a, vTint.a);
+  light *= 1.0 - 0.5 * dark;
+  color = vec4(encoded(light) * tint.a, tint.a);
 }
 )";
 

@@ -71,7 +71,7 @@ void Shadow::drawMasks(const Bounds& bounds) const {
   filter(upProgram_, wideAcross_.texture, wide_, bounds);
 }
 
-void Shadow::draw(const Bodies& bodies, const Frame& frame, const Bounds& bounds) const {
+void Shadow::draw(const Bodies& bodies, const Surfaces& surfaces, const Frame& frame) const {
   glBindFramebuffer(GL_FRAMEBUFFER, mapFramebuffer_);
   glViewport(0, 0, size_, size_);
   glEnable(GL_DEPTH_TEST);
@@ -81,11 +81,12 @@ void Shadow::draw(const Bodies& bodies, const Frame& frame, const Bounds& bounds
   glPolygonOffset(1.5f, 2.0f);
   glClear(GL_DEPTH_BUFFER_BIT);
   bodies.drawCasters();
+  surfaces.drawCasters();
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_CLIP_DISTANCE0);
   glDisable(GL_DEPTH_CLAMP);
   glDisable(GL_DEPTH_TEST);
-  if (frame.groundDrawn) drawMasks(bounds);
+  if (frame.groundDrawn) drawMasks(shadowBoundsOf(frame));
   bindTexture(kShadowUnit, GL_TEXTURE_2D, map_);
   glBindSampler(kShadowUnit, compare_);
   bindTexture(kSharpUnit, GL_TEXTURE_2D, sharp_.texture);

@@ -6,6 +6,7 @@
 
 #include "render/bodies.h"
 #include "render/gl.h"
+#include "render/surfaces.h"
 
 namespace render {
 
@@ -13,8 +14,8 @@ class Shadow {
  public:
   explicit Shadow(int size);
 
-  // `bounds` encloses the casters. Leaves the map and the masks bound to their texture units.
-  void draw(const Bodies& bodies, const Frame& frame, const Bounds& bounds) const;
+  // Leaves the map and the masks bound to their texture units.
+  void draw(const Bodies& bodies, const Surfaces& surfaces, const Frame& frame) const;
 
  private:
   struct Layer {

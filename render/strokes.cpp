@@ -23,15 +23,10 @@ Strokes::Strokes()
       buffer_(makeBuffer()) {
   glBindVertexArray(array_);
   glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-  const auto attribute = [](GLuint index, int size, std::size_t offset) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(StrokeVertex),
-                          reinterpret_cast<const void*>(offset));
-  };
-  attribute(0, 3, offsetof(StrokeVertex, at));
-  attribute(1, 4, offsetof(StrokeVertex, shape));
-  attribute(2, 2, offsetof(StrokeVertex, radii));
-  attribute(3, 4, offsetof(StrokeVertex, color));
+  setAttribute(0, 3, sizeof(StrokeVertex), offsetof(StrokeVertex, at));
+  setAttribute(1, 4, sizeof(StrokeVertex), offsetof(StrokeVertex, shape));
+  setAttribute(2, 2, sizeof(StrokeVertex), offsetof(StrokeVertex, radii));
+  setAttribute(3, 4, sizeof(StrokeVertex), offsetof(StrokeVertex, color));
 }
 
 // Cuts what is behind the near plane; false when nothing remains.
@@ -115,9 +110,7 @@ void Strokes::arrange(const Picture& picture, const Frame& frame) {
   for (const Line& line : picture.lines)
     if (line.onTop) addLine(frame, line);
   for (const Dot& dot : picture.dots) addDot(frame, dot);
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(StrokeVertex)),
-               vertices_.data(), GL_STREAM_DRAW);
+  fillBuffer(GL_ARRAY_BUFFER, buffer_, vertices_, GL_STREAM_DRAW);
 }
 
 void Strokes::draw(std::size_t first, std::size_t count) const {

@@ -1,4 +1,4 @@
-// [[body]] and [[ragdoll]], and what generators share with them.
+// [[body]], [[ragdoll]] and what is soft, and what generators share with them.
 #pragma once
 
 #include "render/picture.h"
@@ -10,6 +10,9 @@ class Recipe;
 
 void readBody(TableReader& reader, Recipe& recipe);
 void readRagdoll(TableReader& reader, Recipe& recipe);
+void readRope(TableReader& reader, Recipe& recipe);
+void readCloth(TableReader& reader, Recipe& recipe);
+void readSoftBody(TableReader& reader, Recipe& recipe);
 
 // color = [r, g, b], "#rrggbb" or a hue's name.
 void readColor(TableReader& reader, std::optional<render::Color>& color);

@@ -49,6 +49,9 @@ constexpr Word kWords[] = {
     word<physics::BowlDef, Pattern::kSingle>(),
     word<physics::StairsDef, Pattern::kSingle>(),
     {"ragdoll", readRagdoll},
+    {"soft_body", readSoftBody},
+    {"cloth", readCloth},
+    {"rope", readRope},
     {"arm", readArm},  // the last: it may follow any body
 };
 

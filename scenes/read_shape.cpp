@@ -90,6 +90,8 @@ constexpr ShapeWord kShapes[] = {
     {"plane", readPlane},
 };
 
+}  // namespace
+
 std::string findMesh(const std::string& file, const Value& value, const Spot& spot) {
   namespace fs = std::filesystem;
   const fs::path beside = fs::path(spot.context.path).parent_path() / file;
@@ -105,8 +107,6 @@ std::string findMesh(const std::string& file, const Value& value, const Spot& sp
        fmt::format("{}: no mesh '{}' beside the scene or in assets/meshes{}", spot.key, file,
                    didYouMean(file, names)));
 }
-
-}  // namespace
 
 std::vector<Vec3> readObjVertices(const std::string& file, const Value& value, const Spot& spot) {
   const std::string path = findMesh(file, value, spot);

@@ -13,7 +13,10 @@ struct PlacedShape {
 };
 PlacedShape readShape(const Value& value, const Spot& spot);
 
-// The vertices of an OBJ file, searched beside the scene file and then in assets/meshes.
+// The path of a mesh file, searched beside the scene file and then in assets/meshes.
+std::string findMesh(const std::string& file, const Value& value, const Spot& spot);
+
+// The vertices of an OBJ file.
 std::vector<physics::Vec3> readObjVertices(const std::string& file, const Value& value,
                                            const Spot& spot);
 

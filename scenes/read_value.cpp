@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/make/soft.h"
 #include "scenes/table_reader.h"
 
 namespace scenes {
@@ -132,6 +133,21 @@ void readValue(const Value& value, const Spot& spot, Vec3& out) {
   if (spot.field.unit == Unit::kDirection && out.norm() < kPositive) {
     failExpected(spot, value, "a direction that is not zero");
   }
+}
+
+void readValue(const Value& value, const Spot& spot, physics::Vec2& out) {
+  arrayOf(2, value, spot, "[width, height]");
+  for (int i = 0; i < 2; ++i) out[i] = number(value.items[i], spot);
+}
+
+void readValue(const Value& value, const Spot& spot, physics::GridIndex& out) {
+  arrayOf(2, value, spot, "[i, j]");
+  readValue(value.items[0], spot, out.i);
+  readValue(value.items[1], spot, out.j);
+}
+
+void readValue(const Value& value, const Spot& spot, physics::BodyRef& out) {
+  out.id = bodyNamed(value, spot);
 }
 
 // [w, x, y, z], or { axis = [x, y, z], degrees = number }.

@@ -31,6 +31,7 @@ Built::Built(const physics::Settings& settings)
     : world(settings), names{"world"}, ids{{"world", physics::kWorldBody}} {
   appearance.colors.push_back(fixedColor());
   appearance.meshes.emplace_back();
+  appearance.hidden.push_back(false);
 }
 
 void Built::name(physics::BodyId body, const std::string& bodyName, const render::Color& color) {
@@ -42,6 +43,7 @@ void Built::name(physics::BodyId body, const std::string& bodyName, const render
   const physics::Shape& shape = world.bodies().shape[body];
   auto mesh = meshOf(shape);
   appearance.meshes.push_back(std::move(mesh));
+  appearance.hidden.push_back(false);
 }
 
 void Built::alias(physics::BodyId body, const std::string& second) {

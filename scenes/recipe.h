@@ -15,9 +15,28 @@
 
 namespace scenes {
 
+// Points that are seen as a sheet: a cloth, the skin of a soft body.
+struct SoftSurface {
+  std::vector<physics::BodyId> nodes;
+  std::vector<std::array<int, 3>> triangles;  // of nodes, counterclockwise from the front
+  std::vector<Eigen::Vector2f> grid;          // by node, lines run through whole numbers; or edges
+  double offset = 0;                          // m, of what is seen from the nodes
+  render::Color front, back;
+};
+
+// Points that are seen as a tube.
+struct SoftTube {
+  std::vector<physics::BodyId> nodes;
+  double radius = 0;  // m
+  render::Color color;
+};
+
 struct Simulation::Appearance {
   std::vector<render::Color> colors;                        // by BodyId
   std::vector<std::shared_ptr<const render::Mesh>> meshes;  // by BodyId, null but for convex bodies
+  std::vector<bool> hidden;                                 // by BodyId, drawn as part of these:
+  std::vector<SoftSurface> surfaces;
+  std::vector<SoftTube> tubes;
 };
 
 // Drives of one figure that follow poses over time.

@@ -9,7 +9,13 @@
 
 #include "physics/body.h"
 #include "physics/fields.h"
+#include "physics/make/tet_mesh.h"
 #include "scenes/value.h"
+
+namespace physics {
+struct BodyRef;
+struct GridIndex;
+}  // namespace physics
 
 namespace scenes {
 
@@ -38,8 +44,11 @@ void readValue(const Value& value, const Spot& spot, unsigned& out);
 void readValue(const Value& value, const Spot& spot, double& out);
 void readValue(const Value& value, const Spot& spot, std::string& out);
 void readValue(const Value& value, const Spot& spot, physics::Vec3& out);
+void readValue(const Value& value, const Spot& spot, physics::Vec2& out);
 void readValue(const Value& value, const Spot& spot, physics::Quat& out);
 void readValue(const Value& value, const Spot& spot, std::array<physics::BodyId, 1>& out);
+void readValue(const Value& value, const Spot& spot, physics::BodyRef& out);
+void readValue(const Value& value, const Spot& spot, physics::GridIndex& out);
 void readValue(const Value& value, const Spot& spot, std::array<physics::BodyId, 2>& out);
 void readValue(const Value& value, const Spot& spot, std::array<int, 3>& out);  // or bodies
 void readValue(const Value& value, const Spot& spot, std::array<physics::BodyId, 4>& out);
@@ -48,6 +57,7 @@ void readValue(const Value& value, const Spot& spot, std::array<double, 2>& out)
 void readValue(const Value& value, const Spot& spot, std::array<physics::Vec3, 2>& out);
 void readValue(const Value& value, const Spot& spot, physics::Friction& out);
 void readValue(const Value& value, const Spot& spot, physics::Shape& out);
+void readValue(const Value& value, const Spot& spot, physics::TetMesh& out);
 
 // The index of the word in `choices`.
 int readChoice(const Value& value, const Spot& spot, std::span<const char* const> choices);

@@ -110,7 +110,7 @@ void drawBodies(const Simulation& simulation, const MotionBounds& stage, render:
   const physics::Bodies& bodies = simulation.world().bodies();
   const Simulation::Appearance& appearance = simulation.appearance();
   for (BodyId b = 1; b < bodies.size(); ++b) {
-    if (isGround(bodies, b)) continue;
+    if (isGround(bodies, b) || appearance.hidden[b]) continue;
     render::Instance instance;
     if (const auto* plane = std::get_if<physics::Plane>(&bodies.shape[b])) {
       instance = plate(*plane, bodies.pose[b], stage);
@@ -125,21 +125,58 @@ void drawBodies(const Simulation& simulation, const MotionBounds& stage, render:
   }
 }
 
-// Springs and distances have no body of their own: a thin rod from point to point.
+render::Instance rod(Primitive primitive, const Vec3& from, const Vec3& to, double diameter,
+                     const render::Color& color) {
+  const Vec3 along = to - from;
+  render::Instance rod;
+  rod.primitive = primitive;
+  rod.size = Vec3(diameter, along.norm(), diameter).cast<float>();
+  rod.position = (0.5 * (from + to)).cast<float>();
+  rod.orientation = physics::Quat::FromTwoVectors(Vec3::UnitY(), along).cast<float>();
+  rod.color = color;
+  return rod;
+}
+
+// Springs, distances and links have no body of their own: a thin rod from point to point.
 void drawRods(const Simulation& simulation, double radius, render::Picture& picture) {
+  const std::vector<bool>& hidden = simulation.appearance().hidden;
+  const render::Color grey(0.3f, 0.3f, 0.3f, 1);
   for (const physics::JointReport& joint : simulation.world().joints()) {
-    if (joint.kind != physics::SpringDef::kWord && joint.kind != physics::DistanceDef::kWord)
+    if (joint.kind != physics::SpringDef::kWord && joint.kind != physics::DistanceDef::kWord &&
+        joint.kind != physics::LinkDef::kWord)
       continue;
-    const Vec3 along = joint.pointB - joint.pointA;
-    if (along.norm() < 1e-9) continue;
-    const double diameter = 0.012 * radius;
-    render::Instance rod;
-    rod.primitive = Primitive::kCylinder;
-    rod.size = Vec3(diameter, along.norm(), diameter).cast<float>();
-    rod.position = (0.5 * (joint.pointA + joint.pointB)).cast<float>();
-    rod.orientation = physics::Quat::FromTwoVectors(Vec3::UnitY(), along).cast<float>();
-    rod.color = {0.3f, 0.3f, 0.3f, 1};
-    picture.instances.push_back(std::move(rod));
+    if (hidden[joint.a] && hidden[joint.b]) continue;
+    if ((joint.pointB - joint.pointA).norm() < 1e-9) continue;
+    picture.instances.push_back(
+        rod(Primitive::kCylinder, joint.pointA, joint.pointB, 0.012 * radius, grey));
+  }
+}
+
+// A tube is a capsule from node to node: joints are round.
+void drawTubes(const Simulation& simulation, render::Picture& picture) {
+  const std::vector<physics::Pose>& pose = simulation.world().bodies().pose;
+  for (const SoftTube& tube : simulation.appearance().tubes) {
+    for (size_t i = 1; i < tube.nodes.size(); ++i) {
+      const Vec3 &from = pose[tube.nodes[i - 1]].x, &to = pose[tube.nodes[i]].x;
+      if ((to - from).norm() < 1e-9) continue;
+      picture.instances.push_back(rod(Primitive::kCapsule, from, to, 2 * tube.radius, tube.color));
+    }
+  }
+}
+
+void drawSurfaces(const Simulation& simulation, render::Picture& picture) {
+  const std::vector<physics::Pose>& pose = simulation.world().bodies().pose;
+  for (const SoftSurface& soft : simulation.appearance().surfaces) {
+    render::Surface surface;
+    for (const BodyId node : soft.nodes) surface.positions.push_back(pose[node].x.cast<float>());
+    for (const std::array<int, 3>& triangle : soft.triangles)
+      surface.indices.insert(surface.indices.end(), triangle.begin(), triangle.end());
+    surface.grid = soft.grid;
+    surface.edges = soft.grid.empty();
+    surface.offset = static_cast<float>(soft.offset);
+    surface.color = soft.front;
+    surface.backColor = soft.back;
+    picture.surfaces.push_back(std::move(surface));
   }
 }
 
@@ -181,6 +218,8 @@ render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
   setCamera(simulation, stage, options.aspect, picture);
   drawBodies(simulation, stage, picture);
   drawRods(simulation, radiusOf(stage), picture);
+  drawTubes(simulation, picture);
+  drawSurfaces(simulation, picture);
   drawOverlays(simulation, options.overlays, picture.focusRadius, picture);
   if (options.hud) picture.hud = makeHud(simulation, history);
   return picture;

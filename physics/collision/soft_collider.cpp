@@ -49,6 +49,18 @@ void SoftCollider::addBody(BodyId body, const Shape& shape) {
   rigids_.push_back(std::move(rigid));
 }
 
+void SoftCollider::ignore(BodyId point, BodyId body) {
+  const std::array<BodyId, 2> pair{point, body};
+  ignored_.insert(std::lower_bound(ignored_.begin(), ignored_.end(), pair), pair);
+}
+
+bool SoftCollider::isIgnored(const SoftElement& element, BodyId body) const {
+  const auto has = [&](BodyId point) {
+    return std::binary_search(ignored_.begin(), ignored_.end(), std::array{point, body});
+  };
+  return !ignored_.empty() && (has(element.from) || has(element.to));
+}
+
 void SoftCollider::takeMotion(std::span<const Pose> start, std::span<const Pose> end,
                               double margin) {
   for (Rigid& rigid : rigids_) {
@@ -68,7 +80,7 @@ void SoftCollider::takeMotion(std::span<const Pose> start, std::span<const Pose>
 bool SoftCollider::mayTouch(const SoftElement& element, const Rigid& rigid,
                             std::span<const Pose> start, std::span<const Pose> end,
                             double margin) const {
-  if (rigid.body == element.from || rigid.body == element.to) return false;
+  if (isIgnored(element, rigid.body)) return false;
   const Vec3 &a = start[element.from].x, &b = end[element.from].x;
   const Vec3 &c = start[element.to].x, &d = end[element.to].x;
   if (rigid.solid.kind == Kind::plane) {

@@ -3,6 +3,7 @@
 // them.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,8 @@ class SoftCollider {
  public:
   void addBody(BodyId body, const Shape& shape);
   void addElement(const SoftElement& element) { elements_.push_back(element); }
+  // Links that end at this point never touch this body, nor does the point: it hangs on it.
+  void ignore(BodyId point, BodyId body);
   bool empty() const { return elements_.empty(); }
   std::size_t elementCount() const { return elements_.size(); }
   const SoftElement& element(int index) const { return elements_[index]; }
@@ -53,6 +56,7 @@ class SoftCollider {
     double turn = 0;  // the furthest that turning moves a point of it [m]
   };
   void takeMotion(std::span<const Pose> start, std::span<const Pose> end, double margin);
+  bool isIgnored(const SoftElement& element, BodyId body) const;
   bool mayTouch(const SoftElement& element, const Rigid& rigid, std::span<const Pose> start,
                 std::span<const Pose> end, double margin) const;
   void look(int element, const Rigid& rigid, std::span<const Pose> start, std::span<const Pose> end,
@@ -60,6 +64,7 @@ class SoftCollider {
 
   std::vector<SoftElement> elements_;
   std::vector<Rigid> rigids_;
+  std::vector<std::array<BodyId, 2>> ignored_;  // sorted
   std::vector<SoftTouch> touches_;
 };
 

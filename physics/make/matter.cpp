@@ -7,8 +7,6 @@
 namespace physics {
 namespace {
 
-constexpr double kWaterDensity = 1000;  // kg/m^3
-
 double boxReach(const Vec3& size, const Vec3& d) { return 0.5 * size.dot(d.cwiseAbs()); }
 
 double cylinderReach(double radius, double length, const Vec3& d) {

@@ -16,6 +16,7 @@ namespace physics {
 
 inline constexpr double kMorePositive = std::numeric_limits<double>::min();  // a bound: > 0
 inline constexpr int kMostBodies = 200000;                                   // of one generator
+inline constexpr double kWaterDensity = 1000;                                // kg/m^3, the default
 
 // Mass or density of each body, and its friction.
 struct Matter {

@@ -20,6 +20,13 @@ void drawFrames(benchmark::State& state, const render::Picture& picture) {
 void boxes(benchmark::State& state) { drawFrames(state, render::pyramidPicture(20)); }
 void capsules(benchmark::State& state) { drawFrames(state, render::ragdollPicture(20)); }
 
+void cloth(benchmark::State& state) { drawFrames(state, render::clothPicture(100)); }
+void noCloth(benchmark::State& state) {
+  render::Picture picture = render::clothPicture(100);
+  picture.surfaces.clear();
+  drawFrames(state, picture);
+}
+
 void overlay(benchmark::State& state) {
   render::Picture picture = render::samplePicture();
   picture.hud = render::sampleHud(240);
@@ -39,5 +46,7 @@ void png(benchmark::State& state) {
 // 0 draft, 1 standard, 2 paper
 BENCHMARK(boxes)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(capsules)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(cloth)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(noCloth)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(overlay)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(png)->Unit(benchmark::kMillisecond)->UseRealTime();

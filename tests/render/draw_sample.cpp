@@ -1,5 +1,5 @@
 // Draws one of the sample pictures to a PNG, to look at and to compare over processes.
-//   draw_sample sample|pyramid|ragdoll|hud draft|standard|paper FILE.png [WIDTH HEIGHT]
+//   draw_sample sample|pyramid|ragdoll|cloth|hud draft|standard|paper FILE.png [WIDTH HEIGHT]
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -14,6 +14,7 @@ namespace {
 render::Picture pictureNamed(const std::string& name) {
   if (name == "pyramid") return render::pyramidPicture(20);
   if (name == "ragdoll") return render::ragdollPicture(20);
+  if (name == "cloth") return render::clothPicture(60);
   render::Picture picture = render::samplePicture();
   if (name == "hud") picture.hud = render::sampleHud(90);
   return picture;

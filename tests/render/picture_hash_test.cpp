@@ -23,6 +23,11 @@ Picture filled() {
   Picture picture = samplePicture();
   picture.hud = sampleHud(5);
   picture.instances[0].mesh = triangle();
+  Surface surface;
+  surface.positions = triangle()->positions;
+  surface.indices = triangle()->indices;
+  surface.grid.assign(3, Eigen::Vector2f::Zero());
+  picture.surfaces = {surface};
   return picture;
 }
 
@@ -62,6 +67,14 @@ TEST(PictureHash, ChangesWithEveryField) {
       [](Picture& p) { p.instances[3].orientation.x() += 0.1f; },
       [](Picture& p) { p.instances[3].color.w() -= 0.1f; },
       [](Picture& p) { p.instances[3].marked = true; },
+      [](Picture& p) { p.surfaces.clear(); },
+      [](Picture& p) { p.surfaces[0].positions[2].x() += 1; },
+      [](Picture& p) { std::swap(p.surfaces[0].indices[0], p.surfaces[0].indices[1]); },
+      [](Picture& p) { p.surfaces[0].grid[1].y() += 1; },
+      [](Picture& p) { p.surfaces[0].edges = true; },
+      [](Picture& p) { p.surfaces[0].offset += 1; },
+      [](Picture& p) { p.surfaces[0].color.x() += 0.1f; },
+      [](Picture& p) { p.surfaces[0].backColor.x() += 0.1f; },
       [](Picture& p) { p.lines[0].from.x() += 1; },
       [](Picture& p) { p.lines[0].to.x() += 1; },
       [](Picture& p) { p.lines[0].color.x() -= 0.1f; },

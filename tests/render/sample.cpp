@@ -65,6 +65,51 @@ Picture ragdollPicture(int count) {
   return picture;
 }
 
+namespace {
+
+Surface wavingSheet(int nodes) {
+  Surface sheet;
+  const auto index = [&](int i, int j) { return static_cast<std::uint32_t>(j * nodes + i); };
+  for (int j = 0; j < nodes; ++j)
+    for (int i = 0; i < nodes; ++i) {
+      const float u = static_cast<float>(i) / static_cast<float>(nodes - 1);
+      const float v = static_cast<float>(j) / static_cast<float>(nodes - 1);
+      const float lift = 0.18f * std::sin(9 * u + 3 * v) * (0.3f + v);
+      sheet.positions.push_back({2.4f * u - 1.6f, 2.6f - 2.2f * v, lift - 0.3f});
+      sheet.grid.push_back({20 * u, 20 * v});
+      if (i == 0 || j == 0) continue;
+      const std::uint32_t a = index(i - 1, j - 1), b = index(i, j - 1), c = index(i, j);
+      for (const std::uint32_t k : {a, c, b, a, index(i - 1, j), c}) sheet.indices.push_back(k);
+    }
+  sheet.color = kBlue;
+  sheet.backColor = kOrange;
+  return sheet;
+}
+
+Surface octahedron(const Vec3f& center, float radius) {
+  Surface skin;
+  for (const Vec3f& axis : {Vec3f::UnitX().eval(), Vec3f::UnitY().eval(), Vec3f::UnitZ().eval()})
+    for (const float side : {radius, -radius}) skin.positions.push_back(center + side * axis);
+  skin.indices = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+  skin.edges = true;
+  skin.color = skin.backColor = kTeal;
+  return skin;
+}
+
+}  // namespace
+
+Picture clothPicture(int nodes) {
+  Picture picture;
+  picture.surfaces = {wavingSheet(nodes), octahedron({1.5f, 0.6f, 0.4f}, 0.6f)};
+  picture.instances = {body(Primitive::kSphere, Vec3f::Ones(), {-0.4f, 0.5f, 0.9f}, kSand)};
+  picture.camera.eye = {1.2f, 2.4f, 6};
+  picture.camera.target = {0, 1.2f, 0};
+  picture.ground.spacing = 0.5f;
+  picture.focusCenter = {0, 1.2f, 0};
+  picture.focusRadius = 2.4f;
+  return picture;
+}
+
 Picture samplePicture() {
   Picture picture;
   addPyramid(picture, 6, 0.5f, {-2.6f, 0, -0.6f});

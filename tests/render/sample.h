@@ -5,8 +5,9 @@
 
 namespace render {
 
-Picture samplePicture();            // pyramid, capsules, marked spheres, cylinders, strokes, labels
-Picture pyramidPicture(int base);   // a pyramid of unit boxes and nothing else
+Picture samplePicture();           // pyramid, capsules, marked spheres, cylinders, strokes, labels
+Picture pyramidPicture(int base);  // a pyramid of unit boxes and nothing else
+Picture clothPicture(int nodes);  // a waving sheet of nodes x nodes over a ball, and a faceted skin
 Picture ragdollPicture(int count);  // capsules lying about
 Hud sampleHud(int frames);
 

@@ -1,7 +1,8 @@
 // Definitions that differ from their defaults in every member.
 #pragma once
 
-#include "physics/make/matter.h"
+#include "physics/make/soft.h"
+#include "physics/make/tet_mesh.h"
 
 namespace scenes {
 
@@ -40,8 +41,14 @@ struct FieldChanger {
   void change(const physics::Field&, physics::Quat& member) {
     member = physics::Quat(0.6, 0, 0.8, 0);
   }
+  void change(const physics::Field& f, physics::Vec2& member) { member = {next(f), next(f)}; }
   void change(const physics::Field&, std::array<physics::BodyId, 2>& member) { member = {1, 2}; }
   void change(const physics::Field&, std::array<int, 1>& member) { member = {2}; }
+  void change(const physics::Field&, physics::BodyRef& member) { member.id = 2; }
+  void change(const physics::Field&, physics::GridIndex& member) { member = {3, 2}; }
+  void change(const physics::Field&, physics::TetMesh& member) {
+    member = physics::boxMesh(physics::Vec3::Ones(), {1, 1, 1});
+  }
   void change(const physics::Field&, std::array<int, 3>& member) { member = {2, 3, 4}; }
   void change(const physics::Field&, std::array<int, 4>& member) { member = {4, 3, 2, 1}; }
   void change(const physics::Field&, std::vector<int>& member) { member = {3, 1, 2}; }
@@ -62,7 +69,7 @@ struct FieldChanger {
   template <class T>
   void change(const physics::Field& f, std::vector<T>& member) {
     member.resize(2);
-    for (T& item : member) change(f, item);
+    for (T& item : member) (*this)(f, item);
   }
 };
 

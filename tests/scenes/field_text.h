@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "physics/make/matter.h"
+#include "physics/make/soft.h"
 #include "scenes/table_reader.h"
 
 namespace scenes {
@@ -18,6 +18,14 @@ inline std::string textOf(const std::string& value) { return '"' + value + '"'; 
 inline std::string textOf(const physics::Vec3& v) {
   return fmt::format("[{:.12g}, {:.12g}, {:.12g}]", v.x(), v.y(), v.z());
 }
+inline std::string textOf(const physics::Vec2& v) {
+  return fmt::format("[{:.12g}, {:.12g}]", v.x(), v.y());
+}
+inline std::string textOf(const physics::BodyRef& body) { return fmt::format("\"b{}\"", body.id); }
+inline std::string textOf(const physics::GridIndex& node) {
+  return fmt::format("[{}, {}]", node.i, node.j);
+}
+inline std::string textOf(const physics::TetMesh&) { return "\"torus.mesh\""; }
 inline std::string textOf(const physics::Quat& q) {
   return fmt::format("[{:.12g}, {:.12g}, {:.12g}, {:.12g}]", q.w(), q.x(), q.y(), q.z());
 }
@@ -46,11 +54,7 @@ requires std::is_enum_v<E> std::string textOf(E value) {
   return std::string("\"") + names(value)[static_cast<size_t>(value)] + '"';
 }
 template <class T>
-std::string textOf(const std::vector<T>& items) {
-  std::string text;
-  for (const T& item : items) text += (text.empty() ? "" : ", ") + textOf(item);
-  return "[" + text + "]";
-}
+std::string textOf(const std::vector<T>& items);
 
 // The visitor that writes.
 struct FieldWriter {
@@ -93,6 +97,22 @@ struct FieldWriter {
     text += name + " = " + value;
   }
 };
+
+template <class T>
+std::string textOf(const std::vector<T>& items) {
+  std::string text;
+  for (T item : items) {
+    text += text.empty() ? "" : ", ";
+    if constexpr (requires(FieldWriter & writer) { T::fields(writer, item); }) {
+      FieldWriter nested{", ", ""};
+      T::fields(nested, item);
+      text += "{ " + nested.text + " }";
+    } else {
+      text += textOf(item);
+    }
+  }
+  return "[" + text + "]";
+}
 
 template <class Def>
 std::string textOfDef(Def& def) {

@@ -4,8 +4,11 @@
 #include "physics/make/arch.h"
 #include "physics/make/cards.h"
 #include "physics/make/chain.h"
+#include "physics/make/cloth.h"
 #include "physics/make/hinge.h"
 #include "physics/make/ragdoll.h"
+#include "physics/make/rope.h"
+#include "physics/make/soft_body.h"
 #include "physics/make/stack.h"
 #include "physics/make/stage.h"
 #include "physics/world.h"
@@ -26,7 +29,8 @@ using Definitions = testing::Types<
     physics::PointGravityDef, physics::HingeDef, physics::StackDef, physics::PyramidDef,
     physics::WallDef, physics::GridDef, physics::ChainDef, physics::BridgeDef, physics::ArchDef,
     physics::CardHouseDef, physics::DominoesDef, physics::BowlDef, physics::StairsDef,
-    physics::RagdollDef, physics::ArmDef>;
+    physics::RagdollDef, physics::RopeDef, physics::ClothDef, physics::SoftBodyDef,
+    physics::ArmDef>;
 TYPED_TEST_SUITE(Fields, Definitions);
 
 TYPED_TEST(Fields, SurviveWritingAndReading) {

@@ -1,0 +1,120 @@
+// One buffer of vertices and one of triangles for all surfaces of a picture.
+#include "render/surfaces.h"
+
+#include <algorithm>
+
+#include "render/geometry.h"
+#include "render/shaders.h"
+
+namespace render {
+namespace {
+
+const Vec3f kNoLine = Vec3f::Constant(0.5f);  // lines run through whole numbers
+
+}  // namespace
+
+Surfaces::Surfaces()
+    : colorProgram_(makeProgram(kSurfaceVertex, kBodyFragment, "#define SURFACE\n")),
+      casterProgram_(makeProgram(kSurfaceVertex, kCasterFragment, "#define CASTER\n")),
+      array_(makeVertexArray()),
+      vertexBuffer_(makeBuffer()),
+      indexBuffer_(makeBuffer()),
+      tints_(glGetUniformLocation(colorProgram_, "tints")) {
+  glBindVertexArray(array_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer_);
+  setAttribute(0, 3, sizeof(SurfaceVertex), offsetof(SurfaceVertex, position));
+  setAttribute(1, 3, sizeof(SurfaceVertex), offsetof(SurfaceVertex, normal));
+  setAttribute(2, 3, sizeof(SurfaceVertex), offsetof(SurfaceVertex, cell));
+}
+
+void Surfaces::appendVertex(const Surface& surface, const std::vector<Vec3f>& normals,
+                            std::uint32_t index, const Vec3f& cell) {
+  const Vec3f& n = normals[index];
+  const Vec3f p = surface.positions[index] + surface.offset * n;
+  vertices_.push_back(
+      {{p.x(), p.y(), p.z()}, {n.x(), n.y(), n.z()}, {cell.x(), cell.y(), cell.z()}});
+}
+
+// Lines along all edges need corners of their own: each coordinate is zero on one edge.
+void Surfaces::append(const Surface& surface) {
+  const std::vector<Vec3f> normals = smoothNormals(surface.positions, surface.indices);
+  auto next = static_cast<std::uint32_t>(vertices_.size());
+  if (surface.edges && surface.grid.empty()) {
+    for (std::size_t i = 0; i < surface.indices.size(); ++i) {
+      const Vec3f cell = Vec3f::Unit(static_cast<Eigen::Index>(i % 3));
+      appendVertex(surface, normals, surface.indices[i], cell);
+      indices_.push_back(next++);
+    }
+    return;
+  }
+  for (std::uint32_t i = 0; i < surface.positions.size(); ++i) {
+    Vec3f cell = kNoLine;
+    if (!surface.grid.empty()) cell.head<2>() = surface.grid[i];
+    appendVertex(surface, normals, i, cell);
+  }
+  for (const std::uint32_t index : surface.indices) indices_.push_back(next + index);
+}
+
+void Surfaces::arrange(const Picture& picture, const Frame& frame) {
+  vertices_.clear();
+  indices_.clear();
+  batches_.clear();
+  for (const Surface& surface : picture.surfaces) {
+    if (surface.indices.empty() || surface.color.w() <= 0) continue;
+    const std::size_t first = indices_.size();
+    append(surface);
+    Vec3f center = Vec3f::Zero();
+    for (const Vec3f& p : surface.positions) center += p;
+    const float depth = frame.depthOf(center / static_cast<float>(surface.positions.size()));
+    batches_.push_back({first, static_cast<GLsizei>(surface.indices.size()), depth,
+                        linearColor(surface.color), linearColor(surface.backColor)});
+  }
+  std::stable_sort(batches_.begin(), batches_.end(),
+                   [](const Batch& a, const Batch& b) { return a.depth > b.depth; });
+  if (batches_.empty()) return;
+  glBindVertexArray(array_);
+  fillBuffer(GL_ARRAY_BUFFER, vertexBuffer_, vertices_, GL_STREAM_DRAW);
+  fillBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer_, indices_, GL_STREAM_DRAW);
+}
+
+void Surfaces::drawTriangles(const Batch& batch) const {
+  glDrawElements(GL_TRIANGLES, batch.count, GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(batch.first * sizeof(std::uint32_t)));
+}
+
+void Surfaces::draw(const Batch& batch) const {
+  glUseProgram(colorProgram_);
+  glBindVertexArray(array_);
+  const std::array<Color, 2> tints = {batch.front, batch.back};
+  glUniform4fv(tints_, 2, tints[0].data());
+  drawTriangles(batch);
+}
+
+void Surfaces::drawCasters() const {
+  glUseProgram(casterProgram_);
+  glBindVertexArray(array_);
+  for (const Batch& batch : batches_)
+    if (batch.casts()) drawTriangles(batch);
+}
+
+void Surfaces::drawOpaque() const {
+  for (const Batch& batch : batches_)
+    if (batch.opaque()) draw(batch);
+}
+
+void Surfaces::drawTranslucent() const {
+  glEnable(GL_BLEND);
+  glEnable(GL_CULL_FACE);
+  for (const Batch& batch : batches_) {
+    if (batch.opaque()) continue;
+    for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
+      glCullFace(hidden);
+      draw(batch);
+    }
+  }
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+}
+
+}  // namespace render

@@ -1,0 +1,115 @@
+// Grids of tetrahedra fill their box, their skins are closed, and senseless meshes are refused.
+#include "physics/make/tet_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+
+namespace physics::testing {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+TetMesh oneTet() {
+  return {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {{0, 1, 2, 3}}};
+}
+
+class BoxMesh : public ::testing::TestWithParam<std::array<int, 3>> {};
+
+TEST_P(BoxMesh, HasFiveTetrahedraToACellThatFillTheBox) {
+  const auto [x, y, z] = GetParam();
+  const TetMesh mesh = boxMesh(Vec3(1, 2, 3), GetParam());
+  EXPECT_EQ(mesh.nodes.size(), static_cast<size_t>((x + 1) * (y + 1) * (z + 1)));
+  EXPECT_EQ(mesh.tets.size(), static_cast<size_t>(5 * x * y * z));
+  EXPECT_NEAR(volumeOf(mesh), 6, 1e-12);
+}
+
+TEST_P(BoxMesh, HasPositiveTetrahedraOnly) {
+  const TetMesh mesh = boxMesh(Vec3(1, 2, 3), GetParam());
+  for (const auto& tet : mesh.tets) EXPECT_GT(volumeOf(mesh, tet), 0);
+}
+
+// Every edge of a closed skin belongs to two triangles that walk it in opposite directions.
+TEST_P(BoxMesh, HasAClosedSkinThatLooksOutward) {
+  const TetMesh mesh = boxMesh(Vec3(1, 2, 3), GetParam());
+  const auto skin = skinOf(mesh);
+  std::map<std::array<int, 2>, int> walked;
+  double volume = 0, area = 0;
+  for (const auto& [a, b, c] : skin) {
+    for (const auto& edge : {std::array{a, b}, {b, c}, {c, a}}) ++walked[edge];
+    const Vec3 &p = mesh.nodes[a], &q = mesh.nodes[b], &r = mesh.nodes[c];
+    volume += p.cross(q).dot(r) / 6;
+    area += (q - p).cross(r - p).norm() / 2;
+  }
+  for (const auto& [edge, count] : walked) {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(walked.count({edge[1], edge[0]}), 1u);
+  }
+  EXPECT_NEAR(volume, 6, 1e-12);  // by Gauss, positive where the skin looks outward
+  EXPECT_NEAR(area, 22, 1e-12);
+  EXPECT_EQ(edgesOf(skin).size() * 2, skin.size() * 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cells, BoxMesh,
+                         ::testing::Values(std::array{1, 1, 1}, std::array{2, 1, 3},
+                                           std::array{3, 4, 5}));
+
+// Euler: nodes - edges + faces - tetrahedra = 1 for a ball.
+TEST(TetMesh, CountsItsEdgesOnce) {
+  const TetMesh mesh = boxMesh(Vec3::Ones(), {3, 4, 5});
+  const auto skin = static_cast<int>(skinOf(mesh).size());
+  const auto tets = static_cast<int>(mesh.tets.size());
+  const int faces = (4 * tets + skin) / 2;
+  const int edges = static_cast<int>(mesh.nodes.size()) + faces - tets - 1;
+  EXPECT_EQ(static_cast<int>(edgesOf(mesh).size()), edges);
+}
+
+TEST(TetMesh, TurnsInvertedTetrahedraOver) {
+  TetMesh mesh = oneTet();
+  std::swap(mesh.tets[0][0], mesh.tets[0][1]);
+  EXPECT_NEAR(volumeOf(mesh), -1.0 / 6, 1e-15);
+  EXPECT_EQ(orient(mesh), 1);
+  EXPECT_NEAR(volumeOf(mesh), 1.0 / 6, 1e-15);
+  EXPECT_EQ(orient(mesh), 0);
+}
+
+std::string refusal(const std::function<void(TetMesh&)>& spoil) {
+  TetMesh mesh = oneTet();
+  spoil(mesh);
+  try {
+    orient(mesh);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(TetMesh, RefusesWhatIsNoSolid) {
+  EXPECT_EQ(refusal([](TetMesh&) {}), "no error");
+  EXPECT_EQ(refusal([](TetMesh& m) { m.tets.clear(); }), "expected at least one tetrahedron");
+  EXPECT_EQ(refusal([](TetMesh& m) { m.tets[0][2] = 4; }),
+            "tetrahedron 1: expected vertices in [1, 4], got 5");
+  EXPECT_EQ(refusal([](TetMesh& m) { m.tets[0][2] = -1; }),
+            "tetrahedron 1: expected vertices in [1, 4], got 0");
+  EXPECT_EQ(refusal([](TetMesh& m) { m.nodes[3].z() = 1e-12; }),
+            "tetrahedron 1 is flat: it has no volume");
+  EXPECT_EQ(refusal([](TetMesh& m) {
+              m.tets.push_back({0, 1, 1, 2});
+            }),
+            "tetrahedron 2 is flat: it has no volume");
+  EXPECT_EQ(refusal([](TetMesh& m) { m.nodes[1].x() = kNaN; }), "vertex 2 is not finite");
+  EXPECT_EQ(refusal([](TetMesh& m) { m.nodes.emplace_back(1, 1, 1); }),
+            "vertex 5 belongs to no tetrahedron, so that it has no mass");
+  EXPECT_EQ(refusal([](TetMesh& m) { m.tets.assign(3, m.tets[0]); }),
+            "expected at most two tetrahedra on a face, got more on 1 2 3");
+}
+
+TEST(TetMesh, RefusesABoxWithoutSizeOrCells) {
+  EXPECT_THROW(boxMesh(Vec3(1, 0, 1), {1, 1, 1}), std::invalid_argument);
+  EXPECT_THROW(boxMesh(Vec3(1, kNaN, 1), {1, 1, 1}), std::invalid_argument);
+  EXPECT_THROW(boxMesh(Vec3::Ones(), {1, 0, 1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace physics::testing
