@@ -13,6 +13,7 @@ void addGolden(CLI::App& line, Action& action);
 void addCompare(CLI::App& line, Action& action);
 void addCheck(CLI::App& line, Action& action);
 void addDoctor(CLI::App& line, Action& action);
+void addFigures(CLI::App& line, Action& action);
 void addGallery(CLI::App& line, Action& action);
 
 }  // namespace app

@@ -1,4 +1,4 @@
-// dbd list: the scenes there are.
+// dbd list: the scenes and the figures there are.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/run_record.h"
+#include "scenes/figure_sheet.h"
 
 namespace app {
 
@@ -16,10 +17,12 @@ struct ListOptions {
   bool json = false;
 };
 
-std::string asJson(const std::vector<scenes::Scene>& library) {
+std::string asJson(const std::vector<scenes::Scene>& library,
+                   const std::vector<scenes::FigureSheet>& figures) {
   Json list = Json::array();
   for (const scenes::Scene& scene : library) {
-    list.push_back({{"name", scene.name},
+    list.push_back({{"kind", "scene"},
+                    {"name", scene.name},
                     {"title", scene.title},
                     {"description", scene.description},
                     {"duration", scene.duration},
@@ -27,29 +30,52 @@ std::string asJson(const std::vector<scenes::Scene>& library) {
                     {"effects", scene.effects},
                     {"path", scene.path}});
   }
+  for (const scenes::FigureSheet& figure : figures) {
+    list.push_back({{"kind", "figure"},
+                    {"name", figure.name},
+                    {"title", figure.title},
+                    {"claim", figure.claim},
+                    {"path", figure.path}});
+  }
   return list.dump(2) + "\n";
 }
 
-std::string asTable(const std::vector<scenes::Scene>& library) {
+std::string asTable(const std::vector<scenes::Scene>& library,
+                    const std::vector<scenes::FigureSheet>& figures) {
   std::string table;
   for (const scenes::Scene& scene : library) {
     table +=
         fmt::format("{:<18}{:<48}{}\n", scene.name, scene.title, fmt::join(scene.effects, " "));
   }
+  for (const scenes::FigureSheet& figure : figures) {
+    table += fmt::format("{:<18}{}\n", figure.name, figure.title);
+  }
   return table;
 }
 
-ExitCode list(const ListOptions& options) {
-  std::vector<scenes::Scene> library;
-  std::string firstError;
-  for (const std::string& name : scenes::libraryScenes()) {
+// What can be read of them; the first that cannot is told in the end.
+template <class Read>
+auto readAll(const std::vector<std::string>& names, Read read, std::string& firstError) {
+  std::vector<decltype(read(std::string()))> all;
+  for (const std::string& name : names) {
     try {
-      library.push_back(scenes::readScene(name));
+      all.push_back(read(name));
     } catch (const scenes::InputError& error) {
       if (firstError.empty()) firstError = error.what();
     }
   }
-  say(options.json ? asJson(library) : asTable(library));
+  return all;
+}
+
+ExitCode list(const ListOptions& options) {
+  std::string firstError;
+  const auto library = readAll(
+      scenes::libraryScenes(), [](const std::string& name) { return scenes::readScene(name); },
+      firstError);
+  const auto figures = readAll(
+      scenes::figureSheets(), [](const std::string& path) { return scenes::readFigureSheet(path); },
+      firstError);
+  say(options.json ? asJson(library, figures) : asTable(library, figures));
   if (!firstError.empty()) throw scenes::InputError(firstError);
   return ExitCode::kDone;
 }
@@ -58,7 +84,8 @@ ExitCode list(const ListOptions& options) {
 
 void addList(CLI::App& line, Action& action) {
   auto options = std::make_shared<ListOptions>();
-  CLI::App* command = line.add_subcommand("list", "Scenes with their titles and effects");
+  CLI::App* command =
+      line.add_subcommand("list", "Scenes with their titles and effects, and figures");
   command->add_flag("--json", options->json, "As JSON, with descriptions and paths");
   command->callback([options, &action] { action = [options] { return list(*options); }; });
 }

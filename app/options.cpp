@@ -35,16 +35,20 @@ void addScene(CLI::App& command, CommonOptions& options) {
 }
 
 void addCommon(CLI::App& command, CommonOptions& options) {
-  command.add_option("-o,--out", options.folder, "Folder for the output [out/NAME]")
-      ->type_name("DIR");
-  command.add_option("--threads", options.threads, "Threads [the cores there are]")
-      ->check(CLI::Range(1, kMostThreads))
-      ->type_name("N");
+  addOutput(command, options);
   command
       .add_option("--set", options.overrides,
                   "Override a value of the scene, as --set simulation.iterations=32; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void addOutput(CLI::App& command, CommonOptions& options, const std::string& folder) {
+  command.add_option("-o,--out", options.folder, "Folder for the output [" + folder + "]")
+      ->type_name("DIR");
+  command.add_option("--threads", options.threads, "Threads [the cores there are]")
+      ->check(CLI::Range(1, kMostThreads))
+      ->type_name("N");
   command
       .add_option("--progress", options.progress,
                   "Progress on stderr [bar on a terminal, else lines]")

@@ -28,21 +28,20 @@ struct RenderOptions {
 };
 
 struct QualityChoice {
-  const char* name;
   render::Quality quality;
   int width, height;
 };
-constexpr QualityChoice kQualities[] = {
-    {"draft", render::Quality::kDraft, 640, 360},
-    {"standard", render::Quality::kStandard, 1280, 720},
-    {"paper", render::Quality::kPaper, 1920, 1080},
-};
 
-const QualityChoice& findQuality(const std::string& name) {
-  for (const QualityChoice& choice : kQualities) {
-    if (choice.name == name) return choice;
+QualityChoice chooseQuality(const std::string& name) {
+  switch (parseQuality(name)) {
+    case render::Quality::kDraft:
+      return {render::Quality::kDraft, 640, 360};
+    case render::Quality::kPaper:
+      return {render::Quality::kPaper, 1920, 1080};
+    case render::Quality::kStandard:
+      break;
   }
-  throw scenes::InputError(fmt::format("--quality {}: expected draft, standard or paper", name));
+  return {render::Quality::kStandard, 1280, 720};
 }
 
 void parseSize(const std::string& text, render::RendererOptions& options) {
@@ -75,16 +74,18 @@ scenes::Overlays chooseOverlays(scenes::Overlays overlays, const std::vector<std
       overlays.centresOfMass = true;
     } else if (word == "arms") {
       overlays.arms = true;
+    } else if (word == "vectors") {
+      overlays.vectors = true;
     } else {
-      throw scenes::InputError(
-          fmt::format("--overlays {}: expected contacts, impulses, joints, masses or arms", word));
+      throw scenes::InputError(fmt::format(
+          "--overlays {}: expected contacts, impulses, joints, masses, arms or vectors", word));
     }
   }
   return overlays;
 }
 
 RenderJob makeJob(const RenderOptions& options, const scenes::Scene& scene) {
-  const QualityChoice& quality = findQuality(options.quality);
+  const QualityChoice quality = chooseQuality(options.quality);
   RenderJob job;
   job.renderer.quality = quality.quality;
   job.renderer.width = quality.width;
@@ -186,7 +187,7 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
   command.add_flag("--hud", options.hud, "Show time, counts and running plots in the picture");
   command
       .add_option("--overlays", options.overlays,
-                  "Draw contacts, impulses, joints, masses, arms (a list with commas)")
+                  "Draw contacts, impulses, joints, masses, arms, vectors (a list with commas)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LIST");

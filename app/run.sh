@@ -1,27 +1,36 @@
 #!/usr/bin/env bash
-# Installs what is needed, builds dbd, renders the shown scenes into out/ and makes out/index.html.
-# Options go to every `dbd render`: ./app/run.sh --quality draft
+# Installs what is needed, builds dbd, renders the shown scenes into out/scenes, makes the paper's
+# figures in out/, and ends with the path of out/index.html.
+# Options go to every `dbd render` and to `dbd figures`: ./app/run.sh --quality draft
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 . "$root/app/prepare.sh"
 
 scenes=(wrecking_ball pyramid heavy_chain ragdoll_stairs ragdoll_drive)
+failed=()
+
+# run WHAT ARGUMENT...: dbd with these; a failure is remembered, an interruption ends all.
+run() {
+  local what=$1 code=0
+  shift
+  "$root/build/dbd" "$@" || code=$?
+  [ "$code" = 130 ] && exit 130
+  [ "$code" = 0 ] || failed+=("$what (exit code $code)")
+}
 
 install_packages
 build "$root/build" dbd
-failed=()
 for i in "${!scenes[@]}"; do
   say "Scene $((i + 1)) of ${#scenes[@]}: ${scenes[$i]}"
-  code=0
-  "$root/build/dbd" render "${scenes[$i]}" --video -o "$root/out/${scenes[$i]}" "$@" || code=$?
-  [ "$code" = 130 ] && exit 130
-  [ "$code" = 0 ] || failed+=("${scenes[$i]} (exit code $code)")
+  run "${scenes[$i]}" render "${scenes[$i]}" --video -o "$root/out/scenes/${scenes[$i]}" "$@"
 done
-page=$("$root/build/dbd" gallery "$root/out" "${scenes[@]}")
+"$root/build/dbd" gallery "$root/out/scenes" "${scenes[@]}" > /dev/null
+say "Figures"
+run figures figures -o "$root/out" "$@"
 if [ ${#failed[@]} -gt 0 ]; then
-  echo "Not rendered: ${failed[*]}" >&2
-  echo "$page"
+  echo "Not as it should be: ${failed[*]}" >&2
+  echo "$root/out/index.html"
   exit 1
 fi
 say "Done. Open this page in a browser:"
-echo "$page"
+echo "$root/out/index.html"

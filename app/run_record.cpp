@@ -78,6 +78,7 @@ Json describePicture(const render::RendererOptions& options, const render::Rende
   if (overlays.joints) shown.push_back("joints");
   if (overlays.centresOfMass) shown.push_back("masses");
   if (overlays.arms) shown.push_back("arms");
+  if (overlays.vectors) shown.push_back("vectors");
   return {{"width", options.width},
           {"height", options.height},
           {"quality", qualityName(options.quality)},
@@ -131,6 +132,14 @@ void writeRecord(const RunRecord& record, const std::filesystem::path& folder) {
                      {"state_hashes", record.stateHashes}};
   constexpr int kIndent = 1;
   writeFile(folder / kFile, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+render::Quality parseQuality(const std::string& word) {
+  using render::Quality;
+  for (const Quality quality : {Quality::kDraft, Quality::kStandard, Quality::kPaper}) {
+    if (word == qualityName(quality)) return quality;
+  }
+  throw scenes::InputError(fmt::format("--quality {}: expected draft, standard or paper", word));
 }
 
 const char* qualityName(render::Quality quality) {

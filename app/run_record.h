@@ -39,5 +39,6 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder);
 void writeRecord(const RunRecord& record, const std::filesystem::path& folder);
 
 const char* qualityName(render::Quality quality);
+render::Quality parseQuality(const std::string& word);  // throws InputError that names --quality
 
 }  // namespace app

@@ -58,6 +58,30 @@ double deviation(const C& item, std::vector<Pose>& pose, const World::Impl& w) {
   return largest > 0 ? worst / largest : worst;
 }
 
+// A contact's gap: n on a and -n on b, both at the point p_a.
+double contactDeviation(const ContactPair& pair, int k, std::vector<Pose>& pose) {
+  const Vec3 n = normalOf(pair, pose), p = pointOf(pair, k, pose);
+  double worst = 0, largest = 1;  // |n|
+  for (const auto& [body, sign] : {std::pair{pair.a, 1.0}, std::pair{pair.b, -1.0}}) {
+    const Vec3 turn = (p - pose[body].x).cross(n);
+    largest = std::max(largest, turn.norm());
+    for (int i = 0; i < 6; ++i) {
+      Vec3 dx = Vec3::Zero(), dtheta = Vec3::Zero();
+      (i < 3 ? dx : dtheta)[i % 3] = kStep;
+      const Pose here = pose[body];
+      displace(pose[body], dx, dtheta);
+      const double ahead = gapOf(pair, k, pose);
+      pose[body] = here;
+      displace(pose[body], -dx, -dtheta);
+      const double behind = gapOf(pair, k, pose);
+      pose[body] = here;
+      const double wanted = sign * (i < 3 ? n : turn)[i % 3];
+      worst = std::max(worst, std::abs(wanted - (ahead - behind) / (2 * kStep)));
+    }
+  }
+  return worst / largest;
+}
+
 }  // namespace
 
 double World::gradientError() const {
@@ -68,6 +92,11 @@ double World::gradientError() const {
       worst = std::max(worst, deviation(item, pose, *impl_));
     }
   });
+  for (const ContactPair& pair : impl_->contacts.pairs) {
+    for (int k = 0; k < pair.count; ++k) {
+      worst = std::max(worst, contactDeviation(pair, k, pose));
+    }
+  }
   return worst;
 }
 

@@ -48,6 +48,7 @@ struct JointReport {
   Vec3 pointA, pointB;  // world
   Vec3 axis;            // world, zero where the kind has none
   double error;         // m or rad
+  Vec3 axisB = Vec3::Zero();  // world: what `axis` is held against, in body b
 };
 
 }  // namespace physics

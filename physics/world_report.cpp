@@ -31,6 +31,8 @@ JointReport reportOf(const C& item, const World::Impl& w) {
   }
   if constexpr (requires { item.axisI; }) joint.axis = a.q * item.axisI;
   if constexpr (requires { item.axes; }) joint.axis = a.q * item.axes[0];
+  if constexpr (requires { item.axes; }) joint.axisB = b.q * item.axes[1];
+  if constexpr (requires { item.frameJ; }) joint.axisB = b.q * item.frameJ.col(2);
   if constexpr (canStand<C>()) joint.error = sizeOfError(item, w);
   return joint;
 }

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "render/gl.h"
+#include "render/marked_text.h"
 #include "render/shaders.h"
 
 namespace render {
@@ -23,6 +24,9 @@ namespace {
 constexpr ImWchar kGlyphs[] = {0x0020, 0x007E, 0x00A0, 0x017F, 0x0370, 0x03FF, 0x2010,
                                0x2033, 0x2070, 0x209C, 0x2100, 0x214B, 0x2190, 0x21FF,
                                0x2200, 0x22FF, 0x25A0, 0x25FF, 0};
+// Of the height of a line.
+constexpr float kScriptSize = 0.72f, kSubscriptDrop = 0.16f, kSuperscriptRise = 0.3f;
+constexpr float kSlant = 0.2f, kSlantRoom = 0.06f;
 constexpr int kShapesSize = 16;  // any face can serve the shapes; this one is always there
 
 ImVec2 vec(const Pixel& p) { return {p.x(), p.y()}; }
@@ -80,6 +84,7 @@ struct Canvas::Impl {
   explicit Impl(const std::string& fontFile);
 
   Face& face(float size);
+  void slant(int firstVertex, float baseline);
   void uploadAndDraw() const;
 
   std::vector<char> fontBytes;
@@ -120,6 +125,14 @@ Face& Canvas::Impl::face(float size) {
   std::unique_ptr<Face>& face = faces[pixels];
   if (!face) face = std::make_unique<Face>(fontBytes, pixels);
   return *face;
+}
+
+// Leans what was drawn since `firstVertex` to the right.
+void Canvas::Impl::slant(int firstVertex, float baseline) {
+  for (int i = firstVertex; i < list.VtxBuffer.Size; ++i) {
+    ImVec2& p = list.VtxBuffer[i].pos;
+    p.x += kSlant * (baseline - p.y);
+  }
 }
 
 void Canvas::Impl::uploadAndDraw() const {
@@ -192,6 +205,47 @@ float Canvas::widthOf(const std::string& words, float size) {
       .x;
 }
 
+// Draws the runs of marked text one after the other; returns the width of all. Without a colour it
+// only measures.
+float Canvas::runs(const Pixel& at, float size, const Color* color, const std::string& words,
+                   bool halo) {
+  float x = 0;
+  for (const TextRun& run : textRuns(words)) {
+    const float height = run.level == 0 ? size : std::round(kScriptSize * size);
+    const float lower = run.level < 0 ? kSubscriptDrop : run.level > 0 ? -kSuperscriptRise : 0;
+    const Pixel start(at.x() + x, at.y() + std::round(lower * size));
+    if (color != nullptr) {
+      const int first = impl_->list.VtxBuffer.Size;
+      halo ? textWithHalo(start, height, *color, run.words)
+           : text(start, height, *color, run.words);
+      if (run.slanted) impl_->slant(first, start.y());
+    }
+    x += widthOf(run.words, height);
+    if (run.slanted) x += std::round(kSlantRoom * size);
+  }
+  return x;
+}
+
+void Canvas::markedText(const Pixel& at, float size, const Color& color, const std::string& words,
+                        bool halo) {
+  runs(at, size, &color, words, halo);
+}
+
+float Canvas::widthOfMarked(const std::string& words, float size) {
+  return runs(Pixel::Zero(), size, nullptr, words, false);
+}
+
+void Canvas::markedTextUpward(const Pixel& at, float size, const Color& color,
+                              const std::string& words) {
+  const int first = impl_->list.VtxBuffer.Size;
+  const Pixel corner(std::round(at.x()), std::round(at.y()));
+  runs(corner, size, &color, words, false);
+  for (int i = first; i < impl_->list.VtxBuffer.Size; ++i) {
+    ImVec2& p = impl_->list.VtxBuffer[i].pos;
+    p = {corner.x() + (p.y - corner.y()), corner.y() - (p.x - corner.x())};
+  }
+}
+
 void Canvas::fill(const Pixel& from, const Pixel& to, const Color& color, float rounding) {
   impl_->list.AddRectFilled(vec(from), vec(to), pack(color), rounding);
 }
@@ -205,6 +259,44 @@ void Canvas::curve(const std::vector<Pixel>& points, const Color& color, float t
   if (points.size() < 2) return;
   const auto* const first = reinterpret_cast<const ImVec2*>(points.data());
   impl_->list.AddPolyline(first, static_cast<int>(points.size()), pack(color), 0, thickness);
+}
+
+// Dashes run on around the corners.
+void Canvas::dashedCurve(const std::vector<Pixel>& points, const Color& color, float thickness,
+                         float dash, float gap) {
+  std::vector<Pixel> piece;
+  float left = dash;
+  bool drawn = true;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    Pixel at = points[i];
+    float length = (points[i + 1] - at).norm();
+    if (drawn && piece.empty()) piece.push_back(at);
+    while (length > left) {
+      at += (points[i + 1] - at) * (left / length);
+      length -= left;
+      if (drawn) {
+        piece.push_back(at);
+        curve(piece, color, thickness);
+        piece.clear();
+      } else {
+        piece.push_back(at);
+      }
+      drawn = !drawn;
+      left = drawn ? dash : gap;
+    }
+    left -= length;
+    if (drawn) piece.push_back(points[i + 1]);
+  }
+  curve(piece, color, thickness);
+}
+
+void Canvas::disc(const Pixel& centre, float radius, const Color& color) {
+  impl_->list.AddCircleFilled(vec(centre), radius, pack(color), 24);
+}
+
+void Canvas::convexArea(const std::vector<Pixel>& corners, const Color& color) {
+  const auto* const first = reinterpret_cast<const ImVec2*>(corners.data());
+  impl_->list.AddConvexPolyFilled(first, static_cast<int>(corners.size()), pack(color));
 }
 
 }  // namespace render

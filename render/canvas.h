@@ -30,12 +30,25 @@ class Canvas {
   void textWithHalo(const Pixel& at, float size, const Color& color, const std::string& words);
   float widthOf(const std::string& words, float size);
 
+  // Text with marks: "p_{i}" lowers i, "m^{2}" raises 2, "*x*" slants x; "\\*" is a star.
+  void markedText(const Pixel& at, float size, const Color& color, const std::string& words,
+                  bool halo = false);
+  float widthOfMarked(const std::string& words, float size);
+  // The same, read from below: `at` is where the baseline starts, at the lower end.
+  void markedTextUpward(const Pixel& at, float size, const Color& color, const std::string& words);
+
   void fill(const Pixel& from, const Pixel& to, const Color& color, float rounding = 0);
   void outline(const Pixel& from, const Pixel& to, const Color& color, float thickness,
                float rounding = 0);
   void curve(const std::vector<Pixel>& points, const Color& color, float thickness);
+  void dashedCurve(const std::vector<Pixel>& points, const Color& color, float thickness,
+                   float dash, float gap);
+  void disc(const Pixel& centre, float radius, const Color& color);
+  void convexArea(const std::vector<Pixel>& corners, const Color& color);  // clockwise
 
  private:
+  float runs(const Pixel& at, float size, const Color* color, const std::string& words, bool halo);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

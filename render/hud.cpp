@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/axis.h"
+
 namespace render {
 namespace {
 
@@ -27,13 +29,6 @@ bool shown(float value, bool logarithmic) {
 float heightOf(float value, const Plot& plot, const AxisRange& range) {
   const float level = plot.logarithmic ? std::log10(value) : value;
   return std::clamp((level - range.low) / (range.high - range.low), 0.0f, 1.0f);
-}
-
-std::string powerOfTen(int exponent) {
-  constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "10⁻" : "10";
-  for (const char digit : std::to_string(std::abs(exponent))) text += kDigits[digit - '0'];
-  return text;
 }
 
 // The next of 1, 2, 5, 10 ... at or above a positive value.

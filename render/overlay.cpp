@@ -15,7 +15,10 @@ void drawLabel(Canvas& canvas, const Label& label, const Frame& frame, int width
   const Eigen::Vector4f clip = frame.block.toClip * label.at.homogeneous();
   const Pixel at((0.5f + 0.5f * clip.x() / clip.w()) * static_cast<float>(width),
                  (0.5f - 0.5f * clip.y() / clip.w()) * static_cast<float>(height));
-  canvas.textWithHalo(at + scale * label.offset, scale * label.size, label.color, label.text);
+  const float size = scale * label.size;
+  Pixel start = at + scale * label.offset;
+  if (label.anchor != 0) start.x() -= label.anchor * canvas.widthOfMarked(label.text, size);
+  canvas.markedText(start.array().round(), size, label.color, label.text, true);
 }
 
 }  // namespace

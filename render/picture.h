@@ -79,12 +79,14 @@ struct Dot {
   Color color{0, 0, 0, 1};
   float diameter = 7;
 };
-struct Label {  // text at a place of the world, offset in pixels
+struct Label {  // text, with the marks of marked_text.h, at a place of the world; offset in pixels
   Vec3f at = Vec3f::Zero();
   std::string text;
   Eigen::Vector2f offset{8, -8};
   Color color{0.1f, 0.1f, 0.1f, 1};
   float size = 18;  // pixels at 720 lines
+  float anchor =
+      0;  // which part of the text is at the place: 0 its start, 1/2 its middle, 1 its end
 };
 
 struct Plot {  // a running plot of the HUD

@@ -63,7 +63,7 @@ class Hasher {
   void add(const Light& v) { addAll(v.direction, v.shadows); }
   void add(const Line& v) { addAll(v.from, v.to, v.color, v.width, v.arrow, v.onTop); }
   void add(const Dot& v) { addAll(v.at, v.color, v.diameter); }
-  void add(const Label& v) { addAll(v.at, v.text, v.offset, v.color, v.size); }
+  void add(const Label& v) { addAll(v.at, v.text, v.offset, v.color, v.size, v.anchor); }
   void add(const Plot::Curve& v) { addAll(v.name, v.values, v.color); }
   void add(const Plot& v) { addAll(v.title, v.unit, v.curves, v.length, v.logarithmic); }
   void add(const Hud& v) { addAll(v.visible, v.title, v.rows, v.plots); }

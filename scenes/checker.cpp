@@ -1,9 +1,9 @@
 // Runs a scene's [[expect]] along a simulation, keeping the worst value of each.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <limits>
 
-#include "scenes/metrics.h"
+#include "scenes/sampler.h"
 
 namespace scenes {
 namespace {
@@ -32,15 +32,6 @@ bool inSpan(const Expectation& expectation, double time) {
   constexpr double kSlack = 1e-9;  // s; times are frame / fps
   return time >= expectation.from.value_or(time) - kSlack &&
          time <= expectation.to.value_or(time) + kSlack;
-}
-
-std::vector<physics::BodyId> matching(const Simulation& simulation, const std::string& pattern) {
-  std::vector<physics::BodyId> bodies;
-  if (const physics::BodyId exact = simulation.findBody(pattern); exact >= 0) return {exact};
-  for (physics::BodyId b = 1; b < simulation.world().bodyCount(); ++b) {
-    if (matches(pattern, simulation.bodyName(b))) bodies.push_back(b);
-  }
-  return bodies;
 }
 
 std::string withUnit(double value, const char* unit) {
@@ -76,17 +67,14 @@ Checker::Verdict judge(const Watch& watch) {
 
 struct Checker::Impl {
   std::vector<Watch> watches;
-  std::vector<physics::Pose> startPoses;
-  FrameMetrics start;
-  double largestKinetic = 0;
+  Sampler sampler;
+  bool begun = false;
 
-  void begin(const Simulation& simulation, const FrameMetrics& now) {
-    start = now;
-    startPoses = simulation.world().bodies().pose;
+  void begin(const Simulation& simulation) {
+    begun = true;
     for (Watch& watch : watches) {
-      if (!watch.expectation.body.empty()) {
-        watch.bodies = matching(simulation, watch.expectation.body);
-      }
+      if (watch.expectation.body.empty()) continue;
+      watch.bodies = matchingBodies(simulation, watch.expectation.body);
     }
   }
 };
@@ -100,19 +88,18 @@ Checker::Checker(const Scene& scene) : impl_(std::make_unique<Impl>()) {
 Checker::~Checker() = default;
 
 void Checker::observe(const Simulation& simulation) {
-  const FrameMetrics now = simulation.metrics();
-  if (impl_->startPoses.empty()) impl_->begin(simulation, now);
-  impl_->largestKinetic = std::max(impl_->largestKinetic, now.kinetic);
+  if (!impl_->begun) impl_->begin(simulation);
+  impl_->sampler.observe(simulation);
+  const double time = impl_->sampler.time();
   for (Watch& watch : impl_->watches) {
-    if (!inSpan(watch.expectation, now.time)) continue;
-    const Sample sample{simulation,  now, impl_->start, impl_->startPoses, impl_->largestKinetic,
-                        watch.bodies};
+    if (!inSpan(watch.expectation, time)) continue;
+    const Sample sample = impl_->sampler.sample(simulation, watch.bodies);
     if (watch.metric->scene != nullptr) {
-      watch.extremes.include(watch.metric->scene(sample), now.time);
+      watch.extremes.include(watch.metric->scene(sample), time);
       continue;
     }
     for (const physics::BodyId body : watch.bodies) {
-      watch.extremes.include(watch.metric->body(sample, body), now.time);
+      watch.extremes.include(watch.metric->body(sample, body), time);
     }
   }
 }

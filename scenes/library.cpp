@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "scenes/scene.h"
+#include "scenes/figure_sheet.h"
 #include "scenes/value.h"
 
 namespace scenes {
@@ -27,15 +27,16 @@ fs::path home() {
   return DBD_SOURCE_FOLDER;
 }
 
-std::string readText(const std::string& path) {
+// `kind`: "scene" or "figure".
+std::string readText(const std::string& path, const char* kind) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    throw InputError(fmt::format("{}: expected a scene file, got a folder", path));
+    throw InputError(fmt::format("{}: expected a {} file, got a folder", path, kind));
   }
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   if (in) text << in.rdbuf();
-  if (!in) throw InputError(fmt::format("{}: expected a scene file that can be read", path));
+  if (!in) throw InputError(fmt::format("{}: expected a {} file that can be read", path, kind));
   return text.str();
 }
 
@@ -56,6 +57,22 @@ std::string pathOf(const std::string& scene) {
       fmt::format("no scene '{}' in the library{}", scene, didYouMean(scene, libraryScenes())));
 }
 
+// "3", "03", "figure03", "axle" and "03_axle" all name 03_axle.toml.
+std::string shippedSheet(const std::string& figure) {
+  const std::string word = figure.starts_with("figure") ? figure.substr(6) : figure;
+  std::vector<std::string> known;
+  for (const std::string& path : figureSheets()) {
+    const std::string stem = fs::path(path).stem().string();
+    const size_t bar = stem.find('_');
+    const std::string number = stem.substr(0, bar);
+    const std::string name = bar == std::string::npos ? stem : stem.substr(bar + 1);
+    const bool same = word == stem || word == name || word == number || "0" + word == number;
+    if (same) return path;
+    known.insert(known.end(), {number, name});
+  }
+  throw InputError(fmt::format("no figure '{}'{}", figure, didYouMean(word, known)));
+}
+
 }  // namespace
 
 std::string libraryFolder() { return (home() / "scenes" / "library").string(); }
@@ -73,7 +90,22 @@ std::vector<std::string> libraryScenes() {
 
 Scene readScene(const std::string& scene, std::span<const std::string> overrides) {
   const std::string path = pathOf(scene);
-  return parseScene(readText(path), path, overrides);
+  return parseScene(readText(path, "scene"), path, overrides);
+}
+
+std::vector<std::string> figureSheets() {
+  std::vector<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(home() / "scenes" / "figures", error)) {
+    if (entry.path().extension() == ".toml") paths.push_back(entry.path().string());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+FigureSheet readFigureSheet(const std::string& figure) {
+  const std::string path = isPath(figure) ? figure : shippedSheet(figure);
+  return parseFigureSheet(readText(path, "figure"), path);
 }
 
 }  // namespace scenes

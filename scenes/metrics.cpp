@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/rotation.h"
+
 namespace scenes {
 namespace {
 
@@ -78,6 +80,45 @@ double angularMomentumDrift(const Sample& s) {
   return scale > 1e-12 ? drift / scale : drift;
 }
 
+// How far the common centre of mass has moved, in metres: forces within the scene cannot do that.
+double centreDrift(const Sample& s) {
+  const physics::Bodies& bodies = s.simulation.world().bodies();
+  Vec3 sum = Vec3::Zero();
+  for (BodyId b = 1; b < bodies.size(); ++b) {
+    if (bodies.motion[b] == physics::Motion::kDynamic) sum += bodies.mass[b] * moved(s, b);
+  }
+  const double mass = movingMass(s);
+  return mass > 0 ? (sum / mass).norm() : 0;
+}
+
+// The moment about the origin of what moved and turned since the start, sum of m x0 x dx + I0
+// dtheta. After one impulse it is the impulse's own: zero unless that turns something (5.1).
+double momentDrift(const Sample& s) {
+  const physics::Bodies& bodies = s.simulation.world().bodies();
+  Vec3 sum = Vec3::Zero();
+  for (BodyId b = 1; b < bodies.size(); ++b) {
+    if (bodies.motion[b] != physics::Motion::kDynamic) continue;
+    const Pose& start = s.startPoses[b];
+    const Vec3 turn = physics::logarithm(poseOf(s, b).q * start.q.conjugate());
+    const Vec3 inBody = bodies.inertia[b].cwiseProduct(start.q.conjugate() * turn);
+    sum += bodies.mass[b] * start.x.cross(moved(s, b)) + start.q * inBody;
+  }
+  return sum.norm();
+}
+
+// The largest angle between the two axes of a constraint of that kind.
+double largestAngle(const Sample& s, const char* kind) {
+  double largest = 0;
+  for (const physics::JointReport& joint : s.simulation.world().joints()) {
+    if (joint.kind != kind) continue;
+    const double sine = joint.axis.cross(joint.axisB).norm();
+    largest = std::max(largest, std::atan2(sine, joint.axis.dot(joint.axisB)));
+  }
+  return largest * 180 / M_PI;
+}
+double axleAngle(const Sample& s) { return largestAngle(s, physics::AxleDef::kWord); }
+double coneAngle(const Sample& s) { return largestAngle(s, physics::ConeLimitDef::kWord); }
+
 double overlap(const Sample& s) { return s.now.overlap; }
 double maxSpeed(const Sample& s) { return s.now.maxSpeed; }
 double contacts(const Sample& s) { return s.now.contacts; }
@@ -101,6 +142,29 @@ double displacementOf(const Sample& s, BodyId b) { return moved(s, b).norm(); }
 double tiltOf(const Sample& s, BodyId b) {
   const Vec3 up = poseOf(s, b).q * (s.startPoses[b].q.conjugate() * Vec3::UnitY());
   return std::atan2(std::hypot(up.x(), up.z()), up.y()) * 180 / M_PI;
+}
+
+// The length of a vector, with the sign of its largest component.
+double signedLength(const Vec3& v) {
+  Eigen::Index largest = 0;
+  v.cwiseAbs().maxCoeff(&largest);
+  return v[largest] < 0 ? -v.norm() : v.norm();
+}
+
+// What World tells of the drive that turns this body; 0 where none does.
+double ofDrive(const Sample& s, BodyId b, Vec3 (physics::World::*report)(int) const) {
+  int drive = 0;
+  for (const physics::JointReport& joint : s.simulation.world().joints()) {
+    if (joint.kind != physics::DriveDef::kWord) continue;
+    if (joint.b == b) return signedLength((s.simulation.world().*report)(drive));
+    ++drive;
+  }
+  return 0;
+}
+double driveAngle(const Sample& s, BodyId b) { return -ofDrive(s, b, &physics::World::driveError); }
+double driveError(const Sample& s, BodyId b) { return std::abs(driveAngle(s, b)); }
+double driveTorque(const Sample& s, BodyId b) {
+  return ofDrive(s, b, &physics::World::driveTorque);
 }
 
 double countTilted(const Sample& s) {
@@ -163,6 +227,15 @@ constexpr Metric kMetrics[] = {
      kScene, momentumDrift, nullptr},
     {"angular_momentum_drift", "", "|L - L0| / |L0|, in kg m^2/s where L0 is zero", kScene,
      angularMomentumDrift, nullptr},
+    {"axle_angle", "degrees", "the largest angle between the two axes of an axle", kScene,
+     axleAngle, nullptr},
+    {"cone_angle", "degrees", "the largest angle between the two axes of a cone_limit", kScene,
+     coneAngle, nullptr},
+    {"centre_drift", "m", "how far the common centre of mass has moved", kScene, centreDrift,
+     nullptr},
+    {"moment_drift", "kg m^2",
+     "the moment about the origin of what moved and turned since the start", kScene, momentDrift,
+     nullptr},
     {"overlap", "m", "the deepest overlap of two bodies", kScene, overlap, nullptr},
     {"max_speed", "m/s", "the speed of the fastest body", kScene, maxSpeed, nullptr},
     {"arm_error", "m", "the largest distance of an arm's tip from its target", kScene, armError,
@@ -185,6 +258,12 @@ constexpr Metric kMetrics[] = {
     {"displacement", "m", "a body's distance from its start", kEach, nullptr, displacementOf},
     {"tilt", "degrees", "the angle a body's vertical has turned from the vertical since its start",
      kEach, nullptr, tiltOf},
+    {"drive_angle", "rad", "the turn from a driven body to its target, signed as its largest part",
+     kEach, nullptr, driveAngle},
+    {"drive_error", "rad", "the angle from a driven body to its target", kEach, nullptr,
+     driveError},
+    {"drive_torque", "N m", "the torque of its drive on a body, signed as its largest part", kEach,
+     nullptr, driveTorque},
     {"count_tilted", "", "how many of the bodies have tilted by more than 45 degrees", kGroup,
      countTilted, nullptr},
     {"fallen", "", "the fraction of the bodies that have tilted by more than 45 degrees", kGroup,

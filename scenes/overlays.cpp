@@ -9,6 +9,7 @@
 
 #include "scenes/arm_overlay.h"
 #include "scenes/palette.h"
+#include "scenes/vectors.h"
 
 namespace scenes {
 namespace {
@@ -111,13 +112,21 @@ render::Plot residualPlot(const std::vector<FrameMetrics>& history, int length) 
 
 }  // namespace
 
-void drawOverlays(const Simulation& simulation, const Overlays& overlays, double scale,
+void drawOverlays(const Simulation& simulation, const ViewOptions& options, double scale,
                   render::Picture& picture) {
+  const Overlays& overlays = options.overlays;
   if (overlays.contacts) drawContacts(simulation, scale, picture);
   if (overlays.impulses) drawImpulses(simulation, scale, picture);
   if (overlays.joints) drawJoints(simulation, scale, picture);
   if (overlays.centresOfMass) drawCentres(simulation, picture);
   drawArms(simulation, overlays, picture);
+  for (render::Line& line : picture.lines) line.width *= static_cast<float>(options.ink);
+  for (render::Dot& dot : picture.dots) dot.diameter *= static_cast<float>(options.ink);
+  for (render::Label& label : picture.labels) {
+    label.size *= static_cast<float>(options.ink);
+    label.offset *= static_cast<float>(options.ink);
+  }
+  if (overlays.vectors) drawVectors(simulation, scale, options, picture);
 }
 
 render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics>& history) {

@@ -4,11 +4,12 @@
 
 #include "render/picture.h"
 #include "scenes/simulation.h"
+#include "scenes/view.h"
 
 namespace scenes {
 
 // `scale`: size of the scene [m], which lengths of arrows are fractions of.
-void drawOverlays(const Simulation& simulation, const Overlays& overlays, double scale,
+void drawOverlays(const Simulation& simulation, const ViewOptions& options, double scale,
                   render::Picture& picture);
 
 render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics>& history);

@@ -101,6 +101,46 @@ void readKeys(TableReader& reader, CameraDef& camera) {
   }
 }
 
+// An override may shorten the scene: frames past its end are an error of the file alone.
+void readGolden(TableReader& reader, const Scene& scene, GoldenDef& golden) {
+  reader(Field{"frames", Unit::kNone, true, 0}, golden.frames);
+  reader(Field{"width", Unit::kNone, false, 16, 16384}, golden.width);
+  reader(Field{"height", Unit::kNone, false, 16, 16384}, golden.height);
+  reader(Field{"hud"}, golden.hud);
+  reader(Field{"state_hash"}, golden.stateHash);
+  if (golden.frames.empty()) reader.failAt("frames", "expected at least one frame");
+  for (size_t i = 0; i < golden.frames.size(); ++i) {
+    if (i > 0 && golden.frames[i] <= golden.frames[i - 1]) {
+      reader.failAt("frames", "expected frames in increasing order");
+    }
+    if (scene.overrides.empty() && golden.frames[i] >= scene.frameCount()) {
+      reader.failAt("frames", fmt::format("expected frames below {}, got {}", scene.frameCount(),
+                                          golden.frames[i]));
+    }
+  }
+}
+
+void readExpectation(TableReader& reader, Scene& scene) {
+  Expectation expectation;
+  expectation.line = reader.table().place.line;
+  expectation.column = reader.table().place.column;
+  readMetric(reader, expectation.metric, expectation.body);
+  reader(Field{"at_most"}, expectation.atMost);
+  reader(Field{"at_least"}, expectation.atLeast);
+  reader(Field{"from", Unit::kNone, false, 0}, expectation.from);
+  reader(Field{"to", Unit::kNone, false, 0}, expectation.to);
+  if (!expectation.atMost && !expectation.atLeast && expectation.metric != "finite") {
+    reader.failHere("expected 'at_most' or 'at_least'");
+  }
+  const double end = expectation.to.value_or(scene.overrides.empty() ? scene.duration : 1e300);
+  if (expectation.from.value_or(0) > end) {
+    reader.failAt("from", fmt::format("expected a time <= {} s, the end of the span", end));
+  }
+  scene.expectations.push_back(expectation);
+}
+
+}  // namespace
+
 void readCamera(TableReader& reader, CameraDef& camera) {
   reader(Field{"field_of_view_degrees", Unit::kNone, false, 1, 150}, camera.fieldOfViewDegrees);
   reader(Field{"direction", Unit::kDirection}, camera.direction);
@@ -127,65 +167,27 @@ void readOverlays(TableReader& reader, Overlays& overlays) {
   reader(Field{"arm_targets"}, overlays.armTargets);
   reader(Field{"arm_tips"}, overlays.armTips);
   reader(Field{"arm_centres"}, overlays.armCentres);
+  reader(Field{"vectors"}, overlays.vectors);
 }
 
-// An override may shorten the scene: frames past its end are an error of the file alone.
-void readGolden(TableReader& reader, const Scene& scene, GoldenDef& golden) {
-  reader(Field{"frames", Unit::kNone, true, 0}, golden.frames);
-  reader(Field{"width", Unit::kNone, false, 16, 16384}, golden.width);
-  reader(Field{"height", Unit::kNone, false, 16, 16384}, golden.height);
-  reader(Field{"hud"}, golden.hud);
-  reader(Field{"state_hash"}, golden.stateHash);
-  if (golden.frames.empty()) reader.failAt("frames", "expected at least one frame");
-  for (size_t i = 0; i < golden.frames.size(); ++i) {
-    if (i > 0 && golden.frames[i] <= golden.frames[i - 1]) {
-      reader.failAt("frames", "expected frames in increasing order");
-    }
-    if (scene.overrides.empty() && golden.frames[i] >= scene.frameCount()) {
-      reader.failAt("frames", fmt::format("expected frames below {}, got {}", scene.frameCount(),
-                                          golden.frames[i]));
-    }
-  }
-}
-
-void readMetric(TableReader& reader, Expectation& expectation) {
-  reader(Field{"metric", Unit::kNone, true}, expectation.metric);
-  reader(Field{"body"}, expectation.body);
-  const Metric* metric = findMetric(expectation.metric);
+void readMetric(TableReader& reader, std::string& word, std::string& body, const char* metricKey,
+                const char* bodyKey) {
+  reader(Field{metricKey, Unit::kNone, true}, word);
+  reader(Field{bodyKey}, body);
+  const Metric* metric = findMetric(word);
   if (metric == nullptr) {
-    reader.failAt("metric", fmt::format("unknown metric '{}'{}", expectation.metric,
-                                        didYouMean(expectation.metric, metricNames())));
+    reader.failAt(metricKey,
+                  fmt::format("unknown metric '{}'{}", word, didYouMean(word, metricNames())));
   }
   const bool needsBody = metric->about != Metric::About::kScene;
-  if (needsBody && !reader.has("body")) {
-    reader.failAt("metric", fmt::format("expected a 'body' as well: {} is {}", metric->name,
-                                        metric->meaning));
+  if (needsBody && !reader.has(bodyKey)) {
+    reader.failAt(metricKey, fmt::format("expected a '{}' as well: {} is {}", bodyKey, metric->name,
+                                         metric->meaning));
   }
-  if (!needsBody && reader.has("body")) {
-    reader.failAt("body", fmt::format("expected none: {} is {}", metric->name, metric->meaning));
+  if (!needsBody && reader.has(bodyKey)) {
+    reader.failAt(bodyKey, fmt::format("expected none: {} is {}", metric->name, metric->meaning));
   }
 }
-
-void readExpectation(TableReader& reader, Scene& scene) {
-  Expectation expectation;
-  expectation.line = reader.table().place.line;
-  expectation.column = reader.table().place.column;
-  readMetric(reader, expectation);
-  reader(Field{"at_most"}, expectation.atMost);
-  reader(Field{"at_least"}, expectation.atLeast);
-  reader(Field{"from", Unit::kNone, false, 0}, expectation.from);
-  reader(Field{"to", Unit::kNone, false, 0}, expectation.to);
-  if (!expectation.atMost && !expectation.atLeast && expectation.metric != "finite") {
-    reader.failHere("expected 'at_most' or 'at_least'");
-  }
-  const double end = expectation.to.value_or(scene.overrides.empty() ? scene.duration : 1e300);
-  if (expectation.from.value_or(0) > end) {
-    reader.failAt("from", fmt::format("expected a time <= {} s, the end of the span", end));
-  }
-  scene.expectations.push_back(expectation);
-}
-
-}  // namespace
 
 void readSettings(TableReader& root, Scene& scene) {
   readTable(root, "simulation", [&](TableReader& reader) { readSimulation(reader, scene); });

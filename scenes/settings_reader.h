@@ -14,6 +14,15 @@ void readSettings(TableReader& root, Scene& scene);
 // [camera] [overlays] [golden] and [[expect]].
 void readPresentation(TableReader& root, Scene& scene);
 
+// [camera], and the same words in a figure's panel.
+void readCamera(TableReader& reader, CameraDef& camera);
+void readOverlays(TableReader& reader, Overlays& overlays);
+
+// The keys `metric` and `body`, which must fit each other; `metricKey` and `bodyKey` are their
+// names.
+void readMetric(TableReader& reader, std::string& metric, std::string& body,
+                const char* metricKey = "metric", const char* bodyKey = "body");
+
 // A table by its word: calls read(reader) and checks that every key was known. Nothing where
 // absent.
 template <class Read>

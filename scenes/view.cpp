@@ -39,13 +39,14 @@ void include(const physics::Bodies& bodies, BodyId b, MotionBounds& box) {
 }
 
 // What the picture is about: the motion, and fixed things of its size that stand around it.
-MotionBounds stageOf(const Simulation& simulation, const MotionBounds& motion) {
+MotionBounds stageOf(const Simulation& simulation, const MotionBounds& motion,
+                     const std::string& fit) {
   MotionBounds stage = motion;
-  if (isEmpty(stage)) stage.include(simulation);
+  if (isEmpty(stage)) stage.include(simulation, fit);
   const physics::Bodies& bodies = simulation.world().bodies();
   const double largest = isEmpty(stage) ? 1e9 : radiusOf(stage);
   for (BodyId b = 1; b < bodies.size(); ++b) {
-    const bool wanted = matches(simulation.scene().camera.fit, simulation.bodyName(b));
+    const bool wanted = matches(fit, simulation.bodyName(b));
     if (!wanted || bodies.motion[b] != Motion::kStatic || isPlane(bodies, b)) continue;
     if (physics::boundingRadius(bodies.shape[b]) <= largest) include(bodies, b, stage);
   }
@@ -180,11 +181,11 @@ void drawSurfaces(const Simulation& simulation, render::Picture& picture) {
   }
 }
 
-void setCamera(const Simulation& simulation, const MotionBounds& stage, double aspect,
-               render::Picture& picture) {
-  const CameraDef& def = simulation.scene().camera;
+void setCamera(const Simulation& simulation, const CameraDef& def, const MotionBounds& stage,
+               double aspect, render::Picture& picture) {
   if (def.keys.empty()) {
-    picture.camera = fitCamera(def, stage, aspect, picture.ground.height);
+    const double ground = picture.ground.visible ? picture.ground.height : -1e9;
+    picture.camera = fitCamera(def, stage, aspect, ground);
     picture.focusCenter = centreOf(stage).cast<float>();
     picture.focusRadius = static_cast<float>(radiusOf(stage));
     return;
@@ -200,8 +201,11 @@ void setCamera(const Simulation& simulation, const MotionBounds& stage, double a
 }  // namespace
 
 void MotionBounds::include(const Simulation& simulation) {
+  include(simulation, simulation.scene().camera.fit);
+}
+
+void MotionBounds::include(const Simulation& simulation, const std::string& fit) {
   const physics::Bodies& bodies = simulation.world().bodies();
-  const std::string& fit = simulation.scene().camera.fit;
   for (BodyId b = 1; b < bodies.size(); ++b) {
     if (bodies.motion[b] == Motion::kStatic || isPlane(bodies, b)) continue;
     if (matches(fit, simulation.bodyName(b))) scenes::include(bodies, b, *this);
@@ -212,15 +216,20 @@ bool needsMotionBounds(const Scene& scene) { return scene.camera.keys.empty(); }
 
 render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
                      const ViewOptions& options, const std::vector<FrameMetrics>& history) {
-  const MotionBounds stage = stageOf(simulation, bounds);
+  const CameraDef& camera = options.camera ? *options.camera : simulation.scene().camera;
+  const MotionBounds stage = stageOf(simulation, bounds, camera.fit);
   render::Picture picture;
   picture.ground = groundOf(simulation.world().bodies(), stage);
-  setCamera(simulation, stage, options.aspect, picture);
+  picture.ground.visible = options.ground;
+  setCamera(simulation, camera, stage, options.aspect, picture);
   drawBodies(simulation, stage, picture);
   drawRods(simulation, radiusOf(stage), picture);
   drawTubes(simulation, picture);
   drawSurfaces(simulation, picture);
-  drawOverlays(simulation, options.overlays, picture.focusRadius, picture);
+  for (render::Instance& instance : picture.instances) {
+    instance.color.w() *= static_cast<float>(options.opacity);
+  }
+  drawOverlays(simulation, options, picture.focusRadius, picture);
   if (options.hud) picture.hud = makeHud(simulation, history);
   return picture;
 }

@@ -1,6 +1,8 @@
 // World + Appearance -> Picture.
 #pragma once
 
+#include <optional>
+
 #include "render/picture.h"
 #include "scenes/simulation.h"
 
@@ -9,7 +11,8 @@ namespace scenes {
 // Bounds of all that moves, over every frame fed to it; what a fitting camera needs.
 struct MotionBounds {
   physics::Vec3 low = physics::Vec3::Constant(1e300), high = physics::Vec3::Constant(-1e300);
-  void include(const Simulation& simulation);
+  void include(const Simulation& simulation);  // the bodies that the scene's camera fits
+  void include(const Simulation& simulation, const std::string& fit);  // those that match `fit`
 };
 
 // True when the scene's camera must know the whole motion before the first picture.
@@ -19,6 +22,12 @@ struct ViewOptions {
   bool hud = false;
   Overlays overlays;
   double aspect = 16.0 / 9;
+  std::optional<CameraDef> camera;  // absent: the scene's
+  double ink = 1;                   // how many times larger lines, dots and letters are drawn
+  double opacity = 1;               // of the bodies
+  bool ground = true;
+  int stampLetters =
+      0;  // length of the text that will stand at the upper left; letters keep off it
 };
 
 // The picture of the simulation's present frame. `history`: metrics of frames 0..now, for the HUD.

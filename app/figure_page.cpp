@@ -1,0 +1,130 @@
+// index.html of the figures: picture, claim, what was measured, and whether it holds.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/figure_record.h"
+#include "app/html.h"
+#include "app/output_file.h"
+
+namespace app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<FigureRecord> recordsIn(const fs::path& folder) {
+  std::vector<FigureRecord> records;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
+    if (std::optional<FigureRecord> record = readFigureRecord(entry.path())) {
+      records.push_back(std::move(*record));
+    }
+  }
+  std::sort(records.begin(), records.end(), [](const FigureRecord& a, const FigureRecord& b) {
+    const auto key = [](const FigureRecord& r) {
+      return std::tuple(r.number == 0, r.number, r.name);
+    };
+    return key(a) < key(b);
+  });
+  return records;
+}
+
+std::string verdictOf(const FigureRecord& record) {
+  if (!record.problem.empty()) return "<span class=\"bad\">The simulation failed</span>";
+  if (record.measures.empty()) return "<span class=\"quiet\">Nothing is measured</span>";
+  return record.holds() ? "<span class=\"good\">Holds</span>"
+                        : "<span class=\"bad\">Does not hold</span>";
+}
+
+std::string heading(const FigureRecord& record) {
+  const std::string title = escapeHtml(record.title);
+  return record.number > 0 ? fmt::format("Figure {}: {}", record.number, title) : title;
+}
+
+std::string textOf(const Json& measure, const char* key) {
+  return escapeHtml(measure.value(key, ""));
+}
+
+std::string measuresOf(const FigureRecord& record) {
+  if (record.measures.empty()) return "";
+  std::string html = "<table><tr><th>claim</th><th>measured</th><th>bound</th><th></th></tr>\n";
+  for (const Json& measure : record.measures) {
+    const bool holds = measure.value("holds", false);
+    html +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"{}\">{}</td></tr>\n",
+                    textOf(measure, "text"), textOf(measure, "measured"), textOf(measure, "bound"),
+                    holds ? "good" : "bad", holds ? "holds" : "fails");
+  }
+  return html + "</table>\n";
+}
+
+std::string timesOf(const FigureRecord& record) {
+  std::string times;
+  for (const auto& [stage, seconds] : record.seconds.items()) {
+    times += fmt::format("{}{} {:.1f} s", times.empty() ? "" : ", ", escapeHtml(stage),
+                         seconds.get<double>());
+  }
+  return times;
+}
+
+std::string filesOf(const FigureRecord& record) {
+  std::string links;
+  for (const Json& file : record.files) {
+    const std::string name = escapeHtml(file.get<std::string>());
+    links += fmt::format("{}<a href=\"{}\">{}</a>", links.empty() ? "" : ", ", name, name);
+  }
+  return links;
+}
+
+std::string showFigure(const FigureRecord& record) {
+  const std::string picture = escapeHtml(record.name) + ".png";
+  std::string html = fmt::format("<section id=\"{}\"><h2>{} · {}</h2>\n", escapeHtml(record.name),
+                                 heading(record), verdictOf(record));
+  html +=
+      fmt::format("<p>{}</p>\n<a href=\"{}\"><img class=\"poster\" src=\"{}\" alt=\"{}\"></a>\n",
+                  escapeHtml(record.claim), picture, picture, heading(record));
+  const std::string film = record.name + ".mp4";
+  if (std::find(record.files.begin(), record.files.end(), film) != record.files.end()) {
+    html += fmt::format(
+        "<p></p><video controls loop muted preload=\"none\" poster=\"{}\" "
+        "src=\"{}\"></video>\n",
+        picture, escapeHtml(film));
+  }
+  if (!record.problem.empty()) html += fmt::format("<p>{}</p>\n", escapeHtml(record.problem));
+  html += "<p></p>\n" + measuresOf(record);
+  html += fmt::format(
+      "<p class=\"quiet\">Took: {}. Files: {}<br><code>dbd figures {} --fresh</code>"
+      "</p>\n",
+      timesOf(record), filesOf(record), escapeHtml(record.asked));
+  return html + "</section>\n";
+}
+
+std::string contents(const std::vector<FigureRecord>& records) {
+  std::string html = "<section><table>\n";
+  for (const FigureRecord& record : records) {
+    html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td><td class=\"number\">{}</td></tr>\n",
+                        escapeHtml(record.name), heading(record), verdictOf(record));
+  }
+  return html + "</table></section>\n";
+}
+
+}  // namespace
+
+fs::path writeFigurePage(const fs::path& folder) {
+  const std::vector<FigureRecord> records = recordsIn(folder);
+  std::string body =
+      "<h1>Displacement based dynamics: the figures</h1>\n<p class=\"quiet\">Each figure was "
+      "simulated, measured and drawn on this machine: what the paper says it shows, what was "
+      "measured, and whether that holds.</p>\n" +
+      contents(records);
+  if (fs::exists(folder / "scenes" / "index.html")) {
+    body += "<p><a href=\"scenes/index.html\">Scenes of the library, with films</a></p>\n";
+  }
+  for (const FigureRecord& record : records) body += showFigure(record);
+  const fs::path page = folder / "index.html";
+  writeFile(page, htmlPage("Displacement based dynamics: the figures", body));
+  return page;
+}
+
+}  // namespace app
