@@ -18,7 +18,7 @@ void drawLabel(Canvas& canvas, const Label& label, const Frame& frame, int width
   const float size = scale * label.size;
   Pixel start = at + scale * label.offset;
   if (label.anchor != 0) start.x() -= label.anchor * canvas.widthOfMarked(label.text, size);
-  canvas.markedText(start.array().round(), size, label.color, label.text, true);
+  canvas.markedText(start, size, label.color, label.text, true);
 }
 
 }  // namespace
