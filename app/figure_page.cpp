@@ -6,6 +6,7 @@
 #include "app/figure_record.h"
 #include "app/html.h"
 #include "app/output_file.h"
+#include "app/run_page.h"
 
 namespace app {
 
@@ -109,6 +110,13 @@ std::string contents(const std::vector<FigureRecord>& records) {
   return html + "</table></section>\n";
 }
 
+// What was rendered into DIR/scenes, as app/run.sh does.
+std::string showScenes(const fs::path& folder) {
+  if (!fs::is_directory(folder / "scenes")) return "";
+  const std::string runs = showRuns(runFolders(folder / "scenes"), "scenes/");
+  return runs.empty() ? "" : "<h1 id=\"scenes\">Scenes of the library</h1>\n" + runs;
+}
+
 }  // namespace
 
 fs::path writeFigurePage(const fs::path& folder) {
@@ -118,10 +126,8 @@ fs::path writeFigurePage(const fs::path& folder) {
       "simulated, measured and drawn on this machine: what the paper says it shows, what was "
       "measured, and whether that holds.</p>\n" +
       contents(records);
-  if (fs::exists(folder / "scenes" / "index.html")) {
-    body += "<p><a href=\"scenes/index.html\">Scenes of the library, with films</a></p>\n";
-  }
   for (const FigureRecord& record : records) body += showFigure(record);
+  body += showScenes(folder);
   const fs::path page = folder / "index.html";
   writeFile(page, htmlPage("Displacement based dynamics: the figures", body));
   return page;

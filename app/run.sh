@@ -24,7 +24,6 @@ for i in "${!scenes[@]}"; do
   say "Scene $((i + 1)) of ${#scenes[@]}: ${scenes[$i]}"
   run "${scenes[$i]}" render "${scenes[$i]}" --video -o "$root/out/scenes/${scenes[$i]}" "$@"
 done
-"$root/build/dbd" gallery "$root/out/scenes" "${scenes[@]}" > /dev/null
 say "Figures"
 run figures figures -o "$root/out" "$@"
 if [ ${#failed[@]} -gt 0 ]; then
