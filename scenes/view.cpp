@@ -138,14 +138,21 @@ render::Instance rod(Primitive primitive, const Vec3& from, const Vec3& to, doub
   return rod;
 }
 
+bool isRod(const std::string& kind) {
+  for (const char* rod : {physics::SpringDef::kWord, physics::VectorSpring::kWord,
+                          physics::HardeningSpringDef::kWord, physics::DistanceDef::kWord,
+                          physics::LinkDef::kWord}) {
+    if (kind == rod) return true;
+  }
+  return false;
+}
+
 // Springs, distances and links have no body of their own: a thin rod from point to point.
 void drawRods(const Simulation& simulation, double radius, render::Picture& picture) {
   const std::vector<bool>& hidden = simulation.appearance().hidden;
   const render::Color grey(0.3f, 0.3f, 0.3f, 1);
   for (const physics::JointReport& joint : simulation.world().joints()) {
-    if (joint.kind != physics::SpringDef::kWord && joint.kind != physics::DistanceDef::kWord &&
-        joint.kind != physics::LinkDef::kWord)
-      continue;
+    if (!isRod(joint.kind)) continue;
     if (hidden[joint.a] && hidden[joint.b]) continue;
     if ((joint.pointB - joint.pointA).norm() < 1e-9) continue;
     picture.instances.push_back(
