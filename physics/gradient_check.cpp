@@ -82,6 +82,28 @@ double contactDeviation(const ContactPair& pair, int k, std::vector<Pose>& pose)
   return worst / largest;
 }
 
+// An arm's error by a turn of each joint, (152), against differences of the posture.
+double armDeviation(const DrivenArm& driven) {
+  const ArmPosture posture = postureOf(driven.arm);
+  const TipError error = tipError(posture, driven.target);
+  double worst = 0, largest = 0;
+  for (int k = 0; error.c > 0 && k < driven.arm.size(); ++k) {
+    const Vec3 gradient = gradientOf(posture, k, error.n);
+    const Quat& parent = parentOf(driven.arm, posture, k);
+    const auto turned = [&](const Vec3& turn) {  // a world-frame turn of all beyond pivot k
+      Arm arm = driven.arm;
+      arm.joints[k].turn = parent.conjugate() * exponential(turn) * parent * arm.joints[k].turn;
+      return tipError(postureOf(arm), driven.target).c;
+    };
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 step = kStep * Vec3::Unit(i);
+      worst = std::max(worst, std::abs(gradient[i] - (turned(step) - turned(-step)) / (2 * kStep)));
+      largest = std::max(largest, std::abs(gradient[i]));
+    }
+  }
+  return largest > 0 ? worst / largest : worst;
+}
+
 }  // namespace
 
 double World::gradientError() const {
@@ -97,6 +119,7 @@ double World::gradientError() const {
       worst = std::max(worst, contactDeviation(pair, k, pose));
     }
   }
+  for (const DrivenArm& driven : impl_->arms) worst = std::max(worst, armDeviation(driven));
   return worst;
 }
 

@@ -1,6 +1,7 @@
 // What a World tells about a step and about its constraints.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -45,10 +46,17 @@ struct ContactReport {
 struct JointReport {
   std::string kind;
   BodyId a, b;
-  Vec3 pointA, pointB;  // world
-  Vec3 axis;            // world, zero where the kind has none
-  double error;         // m or rad
+  Vec3 pointA, pointB;        // world
+  Vec3 axis;                  // world, zero where the kind has none
+  double error;               // m or rad
   Vec3 axisB = Vec3::Zero();  // world: what `axis` is held against, in body b
+};
+
+// A tetrahedron whose volume is kept, (140),(141).
+struct VolumeReport {
+  std::array<BodyId, 4> bodies;
+  std::array<Vec3, 4> gradient;  // dc/dx = 2 A [m^2], A the directed area of the opposite triangle
+  double error;                  // |V/V0 - 1|
 };
 
 }  // namespace physics

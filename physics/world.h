@@ -82,7 +82,8 @@ class World {
 
   std::vector<KindError> constraintErrors() const;  // one per kind present, in the table's order
   std::vector<ContactReport> contacts() const;      // gap <= margin
-  std::vector<JointReport> joints() const;
+  std::vector<JointReport> joints() const;          // every pair that a constraint holds together
+  std::vector<VolumeReport> volumes() const;
   std::vector<ArmReport> arms() const;
   double largestOverlap() const;  // m, over the contacts at the present poses; >= 0
   int contactCount() const;       // points that carry an impulse

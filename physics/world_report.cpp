@@ -37,6 +37,23 @@ JointReport reportOf(const C& item, const World::Impl& w) {
   return joint;
 }
 
+// A rope's pieces one by one; the error is that of the whole.
+template <class K, class C>
+void addPieces(const C& item, const World::Impl& w, std::vector<JointReport>& reports) {
+  const double error = sizeOfError(item, w);
+  for (std::size_t i = 0; i + 1 < item.bodies.size(); ++i) {
+    JointReport piece;
+    piece.kind = K::kWord;
+    piece.a = item.bodies[i];
+    piece.b = item.bodies[i + 1];
+    piece.pointA = w.bodies.pose[piece.a].x;
+    piece.pointB = w.bodies.pose[piece.b].x;
+    piece.axis = piece.axisB = Vec3::Zero();
+    piece.error = error;
+    reports.push_back(piece);
+  }
+}
+
 }  // namespace
 
 const Settings& World::settings() const { return impl_->settings; }
@@ -122,8 +139,22 @@ std::vector<JointReport> World::joints() const {
     using K = std::decay_t<decltype(kind)>;
     if constexpr (K::Item::kBodies == 2) {
       for (const auto& item : kind.set.items) reports.push_back(reportOf<K>(item, *impl_));
+    } else if constexpr (K::Item::kBodies == kMany) {
+      for (const auto& item : kind.set.items) addPieces<K>(item, *impl_, reports);
     }
   });
+  return reports;
+}
+
+std::vector<VolumeReport> World::volumes() const {
+  std::vector<VolumeReport> reports;
+  for (const Volume& item : std::get<Kind<VolumeDef, Volume>>(impl_->kinds).set.items) {
+    Row<4, 1> row;
+    item.evaluate({impl_->bodies.pose, impl_->bodies.start, impl_->substepLength()}, row);
+    VolumeReport report{item.bodies, {}, item.relativeError(impl_->bodies.pose)};
+    for (int k = 0; k < 4; ++k) report.gradient[k] = row.linear[k].transpose();
+    reports.push_back(report);
+  }
   return reports;
 }
 

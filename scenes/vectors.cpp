@@ -45,6 +45,8 @@ class Sketch {
       }
     }
     for (const physics::ContactReport& contact : contacts) drawContact(contact);
+    const auto volumes = simulation_.world().volumes();
+    if (volumes.size() == 1) drawVolume(volumes[0]);
     placer_.avoid(picture_);
     if (!lettered_) return;
     const float size = kLetters * ink_;
@@ -112,6 +114,26 @@ class Sketch {
     letterAway(pA, pB, "*p*_{i}", inkOf(a));
     letterAway(pB, pA, "*p*_{j}", inkOf(b));
     letterBeside(pB, pA, "δ*p*", kError);
+  }
+
+  // The edges, the points, and where the constraint would push each of them.
+  void drawVolume(const physics::VolumeReport& volume) {
+    constexpr const char* kIndex[] = {"0", "1", "2", "3"};
+    Vec3 middle = Vec3::Zero();
+    double largest = 0;
+    for (int k = 0; k < 4; ++k) {
+      middle += 0.25 * centreOf(volume.bodies[k]);
+      largest = std::max(largest, volume.gradient[k].norm());
+    }
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 x = centreOf(volume.bodies[k]);
+      for (int l = 0; l < k; ++l) line(x, centreOf(volume.bodies[l]), kInk, kThin, false);
+      const Vec3 tip = x + kNormalLength * scale_ / largest * volume.gradient[k];
+      line(x, tip, kNormal, kStroke, true);
+      dot(x, kInk);
+      letterAway(tip, x, std::string("*A*_{") + kIndex[k] + "}", kNormal);
+      letterAway(x, middle + 0.5 * (x - tip), std::string("*x*_{") + kIndex[k] + "}", kInk);
+    }
   }
 
   // The normal stands beside the points: along it lies their difference.

@@ -116,7 +116,7 @@ void drawBodies(const Simulation& simulation, const MotionBounds& stage, render:
     if (const auto* plane = std::get_if<physics::Plane>(&bodies.shape[b])) {
       instance = plate(*plane, bodies.pose[b], stage);
     } else {
-      setShape(bodies.shape[b], 0.025 * radiusOf(stage), instance);
+      setShape(bodies.shape[b], 0.025 * picture.focusRadius, instance);
       instance.position = bodies.pose[b].x.cast<float>();
       instance.orientation = bodies.pose[b].q.cast<float>();
     }
@@ -139,16 +139,16 @@ render::Instance rod(Primitive primitive, const Vec3& from, const Vec3& to, doub
 }
 
 bool isRod(const std::string& kind) {
-  for (const char* rod : {physics::SpringDef::kWord, physics::VectorSpring::kWord,
-                          physics::HardeningSpringDef::kWord, physics::DistanceDef::kWord,
-                          physics::LinkDef::kWord}) {
+  for (const char* rod :
+       {physics::SpringDef::kWord, physics::VectorSpring::kWord, physics::HardeningSpringDef::kWord,
+        physics::DistanceDef::kWord, physics::LinkDef::kWord, physics::RopeLengthDef::kWord}) {
     if (kind == rod) return true;
   }
   return false;
 }
 
 // Springs, distances and links have no body of their own: a thin rod from point to point.
-void drawRods(const Simulation& simulation, double radius, render::Picture& picture) {
+void drawRods(const Simulation& simulation, render::Picture& picture) {
   const std::vector<bool>& hidden = simulation.appearance().hidden;
   const render::Color grey(0.3f, 0.3f, 0.3f, 1);
   for (const physics::JointReport& joint : simulation.world().joints()) {
@@ -156,7 +156,7 @@ void drawRods(const Simulation& simulation, double radius, render::Picture& pict
     if (hidden[joint.a] && hidden[joint.b]) continue;
     if ((joint.pointB - joint.pointA).norm() < 1e-9) continue;
     picture.instances.push_back(
-        rod(Primitive::kCylinder, joint.pointA, joint.pointB, 0.012 * radius, grey));
+        rod(Primitive::kCylinder, joint.pointA, joint.pointB, 0.012 * picture.focusRadius, grey));
   }
 }
 
@@ -230,11 +230,15 @@ render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
   picture.ground.visible = options.ground;
   setCamera(simulation, camera, stage, options.aspect, picture);
   drawBodies(simulation, stage, picture);
-  drawRods(simulation, radiusOf(stage), picture);
+  drawRods(simulation, picture);
   drawTubes(simulation, picture);
   drawSurfaces(simulation, picture);
   for (render::Instance& instance : picture.instances) {
     instance.color.w() *= static_cast<float>(options.opacity);
+  }
+  for (render::Surface& surface : picture.surfaces) {
+    surface.color.w() *= static_cast<float>(options.opacity);
+    surface.backColor.w() *= static_cast<float>(options.opacity);
   }
   drawOverlays(simulation, options, picture.focusRadius, picture);
   if (options.hud) picture.hud = makeHud(simulation, history);
