@@ -68,6 +68,19 @@ void addCap(Geometry& geometry, int segments, float y) {
   }
 }
 
+// Along the normal of triangle t, as long as twice its area.
+Vec3f twiceAreaOf(const std::vector<Vec3f>& positions, const std::vector<std::uint32_t>& triangles,
+                  std::size_t t) {
+  const Vec3f &a = positions[triangles[3 * t]], &b = positions[triangles[3 * t + 1]],
+              &c = positions[triangles[3 * t + 2]];
+  return (b - a).cross(c - a);
+}
+
+Vec3f unitOrUp(const Vec3f& v) {
+  const float length = v.norm();
+  return length > 0 ? (v / length).eval() : Vec3f::UnitY();
+}
+
 }  // namespace
 
 Geometry unitBox() {
@@ -137,14 +150,27 @@ Geometry geometryOf(const Mesh& mesh) {
 std::vector<Vec3f> smoothNormals(const std::vector<Vec3f>& positions,
                                  const std::vector<std::uint32_t>& triangles) {
   std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());
-  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
-    const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
-    const Vec3f twiceArea = (positions[b] - positions[a]).cross(positions[c] - positions[a]);
-    for (const std::uint32_t corner : {a, b, c}) normals[corner] += twiceArea;
-  }
-  for (Vec3f& normal : normals) {
-    const float length = normal.norm();
-    normal = length > 0 ? (normal / length).eval() : Vec3f::UnitY();
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    normals[triangles[i]] += twiceAreaOf(positions, triangles, i / 3);
+  for (Vec3f& normal : normals) normal = unitOrUp(normal);
+  return normals;
+}
+
+std::vector<Vec3f> creasedNormals(const std::vector<Vec3f>& positions,
+                                  const std::vector<std::uint32_t>& triangles) {
+  std::vector<Vec3f> areas;
+  for (std::size_t t = 0; t < triangles.size() / 3; ++t)
+    areas.push_back(twiceAreaOf(positions, triangles, t));
+  std::vector<std::vector<std::size_t>> around(positions.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) around[triangles[i]].push_back(i / 3);
+  std::vector<Vec3f> normals;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Vec3f& own = areas[i / 3];
+    Vec3f sum = own;
+    for (const std::size_t other : around[triangles[i]])
+      if (other != i / 3 && areas[other].dot(own) > 0.5f * areas[other].norm() * own.norm())
+        sum += areas[other];
+    normals.push_back(unitOrUp(sum));
   }
   return normals;
 }

@@ -32,4 +32,9 @@ Geometry geometryOf(const Mesh& mesh);
 std::vector<Vec3f> smoothNormals(const std::vector<Vec3f>& positions,
                                  const std::vector<std::uint32_t>& triangles);
 
+// One per corner of a triangle: the same sum over the triangles of the position that face within
+// 60 degrees of the corner's own.
+std::vector<Vec3f> creasedNormals(const std::vector<Vec3f>& positions,
+                                  const std::vector<std::uint32_t>& triangles);
+
 }  // namespace render

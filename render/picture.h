@@ -43,8 +43,8 @@ struct Surface {
   std::vector<Vec3f> positions;
   std::vector<std::uint32_t> indices;  // triangles, counterclockwise from the front
   std::vector<Eigen::Vector2f> grid;   // by position: fine lines run through the whole numbers
-  bool edges = false;                  // without a grid: fine lines along all edges
-  float offset = 0;                    // m, drawn this far out along the normals
+  bool edges = false;  // without a grid: fine lines along all edges, and creases stay sharp
+  float offset = 0;    // m, drawn this far out along the normals
   Color color{0.6f, 0.6f, 0.6f, 1.0f}, backColor{0.6f, 0.6f, 0.6f, 1.0f};
 };
 

@@ -28,32 +28,32 @@ Surfaces::Surfaces()
   setAttribute(2, 3, sizeof(SurfaceVertex), offsetof(SurfaceVertex, cell));
 }
 
-void Surfaces::appendVertex(const Surface& surface, const std::vector<Vec3f>& normals,
-                            std::uint32_t index, const Vec3f& cell) {
-  const Vec3f& n = normals[index];
-  const Vec3f p = surface.positions[index] + surface.offset * n;
+void Surfaces::append(const Vec3f& p, const Vec3f& n, const Vec3f& cell) {
   vertices_.push_back(
       {{p.x(), p.y(), p.z()}, {n.x(), n.y(), n.z()}, {cell.x(), cell.y(), cell.z()}});
 }
 
-// Lines along all edges need corners of their own: each coordinate is zero on one edge.
+// Corners of their own, of whose coordinates each is zero on one edge.
+void Surfaces::appendFacets(const Surface& surface, const std::vector<Vec3f>& positions) {
+  const std::vector<Vec3f> normals = creasedNormals(surface.positions, surface.indices);
+  for (std::size_t i = 0; i < surface.indices.size(); ++i) {
+    indices_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+    append(positions[surface.indices[i]], normals[i], Vec3f::Unit(static_cast<int>(i % 3)));
+  }
+}
+
 void Surfaces::append(const Surface& surface) {
   const std::vector<Vec3f> normals = smoothNormals(surface.positions, surface.indices);
-  auto next = static_cast<std::uint32_t>(vertices_.size());
-  if (surface.edges && surface.grid.empty()) {
-    for (std::size_t i = 0; i < surface.indices.size(); ++i) {
-      const Vec3f cell = Vec3f::Unit(static_cast<Eigen::Index>(i % 3));
-      appendVertex(surface, normals, surface.indices[i], cell);
-      indices_.push_back(next++);
-    }
-    return;
-  }
-  for (std::uint32_t i = 0; i < surface.positions.size(); ++i) {
+  std::vector<Vec3f> positions = surface.positions;
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += surface.offset * normals[i];
+  if (surface.edges && surface.grid.empty()) return appendFacets(surface, positions);
+  const auto first = static_cast<std::uint32_t>(vertices_.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
     Vec3f cell = kNoLine;
     if (!surface.grid.empty()) cell.head<2>() = surface.grid[i];
-    appendVertex(surface, normals, i, cell);
+    append(positions[i], normals[i], cell);
   }
-  for (const std::uint32_t index : surface.indices) indices_.push_back(next + index);
+  for (const std::uint32_t index : surface.indices) indices_.push_back(first + index);
 }
 
 void Surfaces::arrange(const Picture& picture, const Frame& frame) {

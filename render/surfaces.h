@@ -35,8 +35,8 @@ class Surfaces {
   };
 
   void append(const Surface& surface);
-  void appendVertex(const Surface& surface, const std::vector<Vec3f>& normals, std::uint32_t index,
-                    const Vec3f& cell);
+  void appendFacets(const Surface& surface, const std::vector<Vec3f>& positions);
+  void append(const Vec3f& position, const Vec3f& normal, const Vec3f& cell);
   void draw(const Batch& batch) const;
   void drawTriangles(const Batch& batch) const;
 

@@ -1,12 +1,17 @@
 // Contact of points and links.
 #include "physics/constraints/soft_contact.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/rotation.h"
 
 namespace physics {
 namespace {
+
+// Close to an end that is held the other end would have to leap, by 1/t of the gap: such contacts
+// take smaller steps, where the resistance of the link is below this share of its ends'.
+constexpr double kLeastShare = 0.05;
 
 // One direction d of the contact: M^-1 J^T of body b and A.
 struct Direction {
@@ -20,8 +25,9 @@ Direction directionOf(const SoftContact& contact, const Vec3& d, const Vec3& arm
   const InverseMass& b = bodies.inverse[contact.body];
   const Vec3 lever = arm.cross(d);
   Direction row{d, b.inertia * lever, 0};
-  row.resistance = bodies.inverse[contact.from].m * (1 - t) * (1 - t) +
-                   bodies.inverse[contact.to].m * t * t + b.m + lever.dot(row.turn);
+  const double first = bodies.inverse[contact.from].m, second = bodies.inverse[contact.to].m;
+  const double link = first * (1 - t) * (1 - t) + second * t * t;
+  row.resistance = std::max(link, kLeastShare * (first + second)) + b.m + lever.dot(row.turn);
   return row;
 }
 

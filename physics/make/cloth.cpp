@@ -161,8 +161,7 @@ SoftParts add(World& world, const ClothDef& def) {
   SoftParts parts{grid.nodes, trianglesOf(grid)};
   if (def.drag) addAir(world, *def.drag, parts);
   for (const ClothAttachment& held : def.attach) {
-    const BodyId node = grid.at(held.node.i, held.node.j);
-    if (world.bodies().motion[node] == Motion::kDynamic) attach(world, node, held.body.id);
+    attach(world, grid.at(held.node.i, held.node.j), held.body.id);
   }
   SoftSurfaceDef surface;
   surface.nodes = parts.nodes;

@@ -120,8 +120,8 @@ std::vector<BodyId> add(World& world, const RopeDef& def) {
   addLength(world, def, nodes);
   addBending(world, nodes, def.bending);
   if (def.drag) addAir(world, *def.drag, nodes);
-  if (held.start && !start) attach(world, nodes.front(), held.start->id);
-  if (held.end && !end) attach(world, nodes.back(), held.end->id);
+  if (held.start) attach(world, nodes.front(), held.start->id);
+  if (held.end) attach(world, nodes.back(), held.end->id);
   touch(world, def, nodes);
   return nodes;
 }

@@ -58,10 +58,11 @@ void addBending(World& world, std::span<const BodyId> row, const Bending& bendin
 }
 
 void attach(World& world, BodyId node, BodyId body) {
+  world.ignoreCollision(body, node);
+  if (!anyMoves(world, std::array{node, body})) return;
   BallSocketDef joint;
   joint.bodies = {body, node};
   joint.at = world.bodies().pose[node].x;
-  joint.collide = false;
   world.add(joint);
 }
 

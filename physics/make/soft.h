@@ -93,7 +93,7 @@ bool anyMoves(const World& world, std::span<const BodyId> bodies);
 // Bending over every three consecutive bodies.
 void addBending(World& world, std::span<const BodyId> row, const Bending& bending);
 
-// Holds a node at its place on a body.
+// Holds a node at its place on a body, which its links do not touch there.
 void attach(World& world, BodyId node, BodyId body);
 
 }  // namespace physics

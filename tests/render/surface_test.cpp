@@ -161,5 +161,17 @@ TEST(SmoothNormals, AreTheMeanOfTheFacesByArea) {
   EXPECT_TRUE(normals[1].y() > 0 && normals[1].x() < 0);
 }
 
+TEST(CreasedNormals, StaySharpAtARightAngleAndAreSmoothAcrossSmallOnes) {
+  const std::vector<Vec3f> roof = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {0, -1, 1}};
+  const std::vector<Vec3f> sharp = creasedNormals(roof, {0, 1, 2, 0, 3, 1});
+  EXPECT_TRUE(sharp[0].isApprox(Vec3f::UnitY()));
+  EXPECT_TRUE(sharp[3].isApprox(-Vec3f::UnitX()));
+  const std::vector<Vec3f> flat = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {-1, -0.2f, 1}};
+  const std::vector<Vec3f> smooth = creasedNormals(flat, {0, 1, 2, 0, 3, 1});
+  EXPECT_TRUE(smooth[0].isApprox(smooth[3]));
+  EXPECT_LT(smooth[0].x(), 0);
+  EXPECT_TRUE(smooth[2].isApprox(Vec3f::UnitY()));
+}
+
 }  // namespace
 }  // namespace render

@@ -209,7 +209,8 @@ TEST_F(SceneMesh, IsRefusedWhereItIsNoSolid) {
             kAt + "tetrahedron 1: expected vertices in [1, 4], got 5");
   EXPECT_EQ(error(file(kFour, "1\n1 2 3 0 0")),
             kAt + "line 10: expected the number of a vertex, from 1, got 0");
-  EXPECT_EQ(error(file(kFour, "1\n1 2 3 3 0")), kAt + "tetrahedron 1 is flat: it has no volume");
+  EXPECT_EQ(error(file(kFour, "2\n1 2 3 4 0\n1 2 3 3 0")),
+            kAt + "tetrahedron 2 is flat: it has no volume");
   EXPECT_EQ(error(file("4\n0 0 nan 1", "1")),
             kAt + "line 5: expected a finite coordinate of a vertex, got 'nan'");
   EXPECT_EQ(error(file("4\n0 0 x 1", "1")),
