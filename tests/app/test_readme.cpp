@@ -1,0 +1,95 @@
+// The README's commands, scene and figure are what a newcomer tries first: each is run, cut short.
+#include <map>
+#include <regex>
+
+#include "program.h"
+
+namespace tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What makes a command short without changing what it is; "" where it is short by itself.
+const std::map<std::string, std::string> kShort = {
+    {"list", ""},
+    {"doctor", ""},
+    {"render", " --set duration=0.05 --size 96x64 --quality draft"},
+    {"simulate", " --set duration=0.05"},
+    {"figures", " --quality draft --width 400 --progress none"},
+    {"check", " --set duration=0.02 --progress none"},
+    {"golden", " pendulum --progress none"},
+    {"compare", ""},
+};
+
+struct Blocks {
+  std::vector<std::string> commands, scenes, figures;
+};
+
+Blocks readmeBlocks() {
+  Blocks blocks;
+  std::string language, text;
+  for (const std::string& line : lines(readBytes(fs::path(DBD_SOURCE) / "README.md"))) {
+    if (line.rfind("```", 0) != 0) {
+      if (language == "sh" && line.rfind("build/dbd ", 0) == 0) {
+        blocks.commands.push_back(line.substr(10, line.find(" #") - 10));
+      }
+      text += line + "\n";
+      continue;
+    }
+    if (language == "toml") {
+      (text.find("[[panel]]") == std::string::npos ? blocks.scenes : blocks.figures)
+          .push_back(text);
+    }
+    language = language.empty() ? line.substr(3) : "";
+    text.clear();
+  }
+  return blocks;
+}
+
+class Readme : public Program {};
+
+TEST_F(Readme, EveryCommandRuns) {
+  fs::create_directories(folder / "A");
+  fs::create_directories(folder / "B");
+  const fs::path picture = fs::path(DBD_SOURCE) / "tests/golden/pendulum/00000.png";
+  fs::copy_file(picture, folder / "A" / "00000.png");
+  fs::copy_file(picture, folder / "B" / "00000.png");
+  const std::vector<std::string> commands = readmeBlocks().commands;
+  ASSERT_GE(commands.size(), kShort.size());
+  for (std::string command : commands) {
+    command.erase(command.find_last_not_of(' ') + 1);
+    const std::string word = command.substr(0, command.find(' '));
+    ASSERT_TRUE(kShort.contains(word)) << command << ": say here how to cut it short";
+    if (word == "render")
+      command = std::regex_replace(command, std::regex(" --quality [a-z]+"), "");
+    const Outcome outcome = run(command + kShort.at(word));
+    // A scene cut short may miss what it expects of itself; nothing else may fail.
+    EXPECT_TRUE(outcome.code == 0 || (word == "check" && outcome.code == 3))
+        << command << "\nexit code " << outcome.code << "\n"
+        << outcome.errors;
+  }
+}
+
+TEST_F(Readme, SceneHoldsWhatItExpects) {
+  const std::vector<std::string> scenes = readmeBlocks().scenes;
+  ASSERT_FALSE(scenes.empty());
+  for (const std::string& scene : scenes) {
+    writeText(folder / "my_scene.toml", scene);
+    const Outcome outcome = run("check my_scene.toml --progress none");
+    EXPECT_EQ(outcome.code, 0) << outcome.output << outcome.errors;
+  }
+}
+
+TEST_F(Readme, FigureIsMadeAndHolds) {
+  const std::vector<std::string> figures = readmeBlocks().figures;
+  ASSERT_FALSE(figures.empty());
+  for (const std::string& figure : figures) {
+    writeText(folder / "my.toml", figure);
+    const Outcome outcome = run("figures my.toml --quality draft --width 400 --progress none");
+    EXPECT_EQ(outcome.code, 0) << outcome.output << outcome.errors;
+    EXPECT_TRUE(fs::exists(folder / "out" / "my.png"));
+  }
+}
+
+}  // namespace
+}  // namespace tests
