@@ -151,8 +151,13 @@ bool isRod(const std::string& kind) {
 void drawRods(const Simulation& simulation, render::Picture& picture) {
   const std::vector<bool>& hidden = simulation.appearance().hidden;
   const render::Color grey(0.3f, 0.3f, 0.3f, 1);
-  for (const physics::JointReport& joint : simulation.world().joints()) {
+  const std::vector<physics::JointReport> joints = simulation.world().joints();
+  const bool linked = std::any_of(joints.begin(), joints.end(), [](const auto& joint) {
+    return joint.kind == physics::LinkDef::kWord;
+  });
+  for (const physics::JointReport& joint : joints) {
     if (!isRod(joint.kind)) continue;
+    if (linked && joint.kind == physics::RopeLengthDef::kWord) continue;  // its pieces are links
     if (hidden[joint.a] && hidden[joint.b]) continue;
     if ((joint.pointB - joint.pointA).norm() < 1e-9) continue;
     picture.instances.push_back(
