@@ -12,68 +12,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "physics/constraint.h"
-#include "physics/rotation.h"
+#include "physics/constraint_response.h"
 
 namespace physics {
-
-template <class C>
-Eigen::Matrix<double, C::kRows, C::kRows> resistance(const C& item, const Evaluated<C>& row,
-                                                     std::span<const InverseMass> inverse,
-                                                     Response<C>& response) {
-  Eigen::Matrix<double, C::kRows, C::kRows> a;
-  a.setZero();
-  if constexpr (C::kBodies == kMany) {
-    response.linear.resize(item.bodies.size());
-    response.angular.resize(item.bodies.size());
-  }
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const InverseMass& mass = inverse[item.bodies[b]];
-    if constexpr (C::kLinear) {
-      response.linear[b] = mass.m * row.linear[b].transpose();
-      a.noalias() += row.linear[b].lazyProduct(response.linear[b]);
-    }
-    if constexpr (isAngular<C>()) {
-      response.angular[b].noalias() = mass.inertia.lazyProduct(row.angular[b].transpose());
-      a.noalias() += row.angular[b].lazyProduct(response.angular[b]);
-    }
-  }
-  return a;
-}
-
-// Displaces one body by the change `delta` of a multiplier.
-template <class C>
-Correction displacementOf(const Response<C>& response, std::size_t b,
-                          const typename Set<C>::Vector& delta) {
-  Correction moved;
-  if constexpr (C::kLinear) moved.dx = response.linear[b].lazyProduct(delta);
-  if constexpr (isAngular<C>()) moved.dtheta = response.angular[b].lazyProduct(delta);
-  return moved;
-}
-
-template <class C>
-void displaceBodies(const C& item, const Response<C>& response, const typename Set<C>::Vector& once,
-                    const typename Set<C>::Vector& lasting, Bodies& bodies) {
-  const bool corrects = !once.isZero(0);
-  if (!corrects && lasting.isZero(0)) return;
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const BodyId id = item.bodies[b];
-    Correction moved = displacementOf<C>(response, b, lasting);
-    if constexpr (C::kLinear) bodies.shift[id] += moved.dx;
-    if (corrects) {
-      const Correction taken = displacementOf<C>(response, b, once);
-      bodies.correction[id].dx += taken.dx;
-      bodies.correction[id].dtheta += taken.dtheta;
-      moved.dx += taken.dx;
-      moved.dtheta += taken.dtheta;
-    }
-    if constexpr (isAngular<C>()) {
-      displace(bodies.pose[id], moved.dx, moved.dtheta);
-    } else {
-      bodies.pose[id].x += moved.dx;
-    }
-  }
-}
 
 template <class Vector>
 void clampTotal(Vector& total, double low, double high, double longest) {
@@ -100,19 +41,6 @@ Eigen::Matrix<double, R, 1> step(Eigen::Matrix<double, R, R> a, double alpha, do
     a.diagonal().array() += alpha;
     return -xi * (a.inverse() * residual);
   }
-}
-
-// J dX of a correction.
-template <class C>
-typename Set<C>::Vector along(const C& item, const Evaluated<C>& row,
-                              std::span<const Correction> correction) {
-  typename Set<C>::Vector sum = Set<C>::Vector::Zero();
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const Correction& moved = correction[item.bodies[b]];
-    if constexpr (C::kLinear) sum += row.linear[b].lazyProduct(moved.dx);
-    if constexpr (isAngular<C>()) sum += row.angular[b].lazyProduct(moved.dtheta);
-  }
-  return sum;
 }
 
 // The part of an error at X^t that is wrong: all of an equality's, the violated side of a bound's.
