@@ -32,8 +32,7 @@ struct Instance {
   Vec3f position = Vec3f::Zero();
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
   Color color{0.6f, 0.6f, 0.6f, 1.0f};
-  bool marked =
-      false;  // a quiet stripe/patch pattern so that a turning sphere or cylinder shows its turning
+  bool marked = false;  // a quiet pattern that shows how a sphere or cylinder turns
 };
 
 // A sheet of triangles in world coordinates, for what changes its form from frame to frame: a

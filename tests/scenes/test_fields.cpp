@@ -21,16 +21,17 @@ namespace {
 template <class Def>
 class Fields : public testing::Test {};
 
-using Definitions = testing::Types<
-    physics::BallSocketDef, physics::AxleDef, physics::ConeLimitDef, physics::TwistLimitDef,
-    physics::DistanceDef, physics::SpringDef, physics::DriveDef, physics::MotorDef,
-    physics::LinkDef, physics::RopeLengthDef, physics::VolumeDef, physics::BendDef,
-    physics::HardeningSpringDef, physics::DragDef, physics::PanelDragDef, physics::MotorTorqueDef,
-    physics::PointGravityDef, physics::HingeDef, physics::StackDef, physics::PyramidDef,
-    physics::WallDef, physics::GridDef, physics::ChainDef, physics::BridgeDef, physics::ArchDef,
-    physics::CardHouseDef, physics::DominoesDef, physics::BowlDef, physics::StairsDef,
-    physics::RagdollDef, physics::RopeDef, physics::ClothDef, physics::SoftBodyDef,
-    physics::ArmDef>;
+using Definitions =
+    testing::Types<physics::BallSocketDef, physics::AxleDef, physics::ConeLimitDef,
+                   physics::TwistLimitDef, physics::DistanceDef, physics::SpringDef,
+                   physics::DriveDef, physics::MotorDef, physics::LinkDef, physics::RopeLengthDef,
+                   physics::VolumeDef, physics::BendDef, physics::HardeningSpringDef,
+                   physics::DragDef, physics::PanelDragDef, physics::MotorTorqueDef,
+                   physics::PointGravityDef, physics::HingeDef, physics::StackDef,
+                   physics::PyramidDef, physics::WallDef, physics::GridDef, physics::ChainDef,
+                   physics::BridgeDef, physics::ArchDef, physics::CardHouseDef,
+                   physics::DominoesDef, physics::BowlDef, physics::StairsDef, physics::RagdollDef,
+                   physics::RopeDef, physics::ClothDef, physics::SoftBodyDef, physics::ArmDef>;
 TYPED_TEST_SUITE(Fields, Definitions);
 
 TYPED_TEST(Fields, SurviveWritingAndReading) {
