@@ -4,29 +4,10 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "physics/world.h"
-#include "tests/physics/pair.h"
+#include "tests/physics/points.h"
 
 namespace physics::testing {
 namespace {
-
-constexpr double kStep = 1.0 / 60;
-
-Settings steps(int substeps, int iterations) {
-  Settings settings;
-  settings.dt = kStep;
-  settings.substeps = substeps;
-  settings.iterations = iterations;
-  return settings;
-}
-
-BodyDef point(double mass, const Vec3& x, const Vec3& v = Vec3::Zero()) {
-  BodyDef def;
-  def.mass = mass;
-  def.pose.x = x;
-  def.velocity.v = v;
-  return def;
-}
 
 TEST(HardeningSpring, EqualsImplicitEuler) {
   World world(steps(1, 30));
