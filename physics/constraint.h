@@ -16,11 +16,21 @@
 namespace physics {
 
 // What a constraint may look at: the present displaced poses X^{t+1} + dX, the poses at the start
-// of the substep, and its length [s].
+// of the substep, and its length [s]. By bdf2 the start is where backward Euler would have started,
+// dt two thirds of the substep, and `origin` and `before` are X^t and X^{t-1}.
 struct Configuration {
   std::span<const Pose> now, start;
   double dt = 0;
+  std::span<const Pose> origin{}, before{};
 };
+
+// c now less c at the start, c a function of the poses: over dt it is the rate of c. At bdf2's start
+// a curved c would be off by c'' h^2, and its rate by first order.
+template <class F>
+auto changeSinceStart(const Configuration& x, F&& c) {
+  if (x.before.empty()) return decltype(c(x.now))(c(x.now) - c(x.start));
+  return decltype(c(x.now))(c(x.now) - (4 * c(x.origin) - c(x.before)) / 3);
+}
 
 // The number of bodies of a kind whose constraints have each their own: the nodes of a rope.
 constexpr int kMany = -1;
@@ -93,6 +103,8 @@ struct Multipliers {
   Vector total = Vector::Zero();     // accumulated, of the motion; the next substep's first guess
   Vector once = Vector::Zero();      // accumulated, of the error that stood at X^t
   Vector standing = Vector::Zero();  // that error
+  bool loaded = false;               // it had a multiplier in the last substep
+  double step = 0;                   // the dt that `total` belongs to [s]
 };
 
 // The constraints of one kind, in the order they were added.

@@ -65,6 +65,46 @@ void displaceBodies(const C& item, const Response<C>& response, const typename S
   }
 }
 
+// The step of the bodies that a constraint joins [s]: those that joined bodies share.
+template <class C>
+double stepOf(const C& item, const Bodies& bodies, double dt) {
+  if (bodies.second.empty()) return dt;
+  for (const BodyId body : item.bodies) {
+    if (bodies.motion[body] != Motion::kStatic) return bodies.second.step[body];
+  }
+  return dt;
+}
+
+template <class C>
+bool isSymmetric(const C& item, const Bodies& bodies) {
+  if (bodies.second.empty()) return false;
+  for (const BodyId body : item.bodies) {
+    if (bodies.motion[body] != Motion::kStatic) {
+      return bodies.second.scheme[body] == Scheme::kSymmetric;
+    }
+  }
+  return false;
+}
+
+template <class C>
+Configuration configurationOf(const C& item, const Bodies& bodies, double dt) {
+  if (bodies.second.empty()) return {bodies.pose, bodies.start, dt};
+  return {bodies.pose, bodies.start, stepOf(item, bodies, dt), bodies.second.origin,
+          bodies.second.before};
+}
+
+// Keeps the account of the angular impulses that the second-order steppings balance.
+template <class C>
+void countTwist(const C& item, const Evaluated<C>& row, const typename Set<C>::Vector& delta,
+                Bodies& bodies) {
+  if constexpr (isAngular<C>()) {
+    if (bodies.second.empty()) return;
+    for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+      bodies.second.twist[item.bodies[b]] += row.angular[b].transpose() * delta;
+    }
+  }
+}
+
 // J dX of a correction.
 template <class C>
 typename Set<C>::Vector along(const C& item, const Evaluated<C>& row,

@@ -89,7 +89,7 @@ typename Set<C>::Vector pushed(const Evaluated<C>& push,
 template <class C>
 bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
            Bodies& bodies, double dt, Scratch<C>& s) {
-  item.evaluate({bodies.pose, bodies.start, dt}, s.row);
+  item.evaluate(configurationOf(item, bodies, dt), s.row);
   if (!s.row.active) return true;
   const auto a = resistance(item, s.row, bodies.inverse, s.response);
   const double mean = a.trace() / C::kRows;
@@ -111,7 +111,17 @@ bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& 
   lambda.once += once;
   lambda.total += lasting;
   displaceBodies(item, s.response, once, lasting, bodies);
+  countTwist(item, s.row, lasting, bodies);
   return true;
+}
+
+// Multipliers are forces times the square of the step: to those of another step.
+template <class C>
+void rescale(Multipliers<C>& lambda, double step) {
+  if (lambda.step > 0 && lambda.step != step) {
+    lambda.total *= (step / lambda.step) * (step / lambda.step);
+  }
+  lambda.step = step;
 }
 
 // Start of a substep: what stands wrong at X^t, and the last multipliers as a first guess.
@@ -119,14 +129,19 @@ template <class C>
 void prepare(const C& item, Multipliers<C>& lambda, bool warm, bool split, Bodies& bodies,
              double dt) {
   lambda.once.setZero();
+  lambda.loaded = !lambda.total.isZero(0);
+  const double step = stepOf(item, bodies, dt);
   if (!warm) lambda.total.setZero();
+  rescale(lambda, step);
   if (!split && lambda.total.isZero(0)) return;
   Scratch<C> s;  // of a kind with kMany bodies this allocates, and only where multipliers are kept
-  item.evaluate({bodies.start, bodies.start, dt}, s.row);
+  const std::vector<Pose>& start = bodies.second.empty() ? bodies.start : bodies.second.origin;
+  item.evaluate({start, start, step}, s.row);
   lambda.standing = standingError<C>(s.row);
   if (lambda.total.isZero(0)) return;
   resistance(item, s.row, bodies.inverse, s.response);
   displaceBodies(item, s.response, Set<C>::Vector::Zero(), lambda.total, bodies);
+  countTwist(item, s.row, lambda.total, bodies);
 }
 
 }  // namespace physics

@@ -16,6 +16,8 @@ enum class Stepping {
   kPaper,   // backward Euler
   kStatic,  // no motion: every step solves from rest and ends at rest, so that with one substep and
             // one iteration the steps are the solver's iterations
+  kBdf2,    // second order, stable at any stiffness; the end of a step decides the directions
+  kSymmetric,  // RATTLE: second order, keeps energy where the step resolves the motion
 };
 enum class Regularisation {
   kCompliance,  // in mu and as alpha lambda (56): gives way

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "physics/choose_scheme.h"
 #include "physics/effects/restitution.h"
+#include "physics/effects/second_order.h"
 #include "physics/methods/direct.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
 #include "physics/world_impl.h"
@@ -23,20 +25,25 @@ void takeShapes(World::Impl& w) {
   }
 }
 
+// X^t; Bodies::start is where backward Euler would have started.
+std::span<const Pose> poseAtStart(const World::Impl& w) {
+  return w.bodies.second.empty() ? w.bodies.start : w.bodies.second.origin;
+}
+
 // Manifolds for the motion from the start of the substep to `target`.
 void findContacts(World::Impl& w, std::span<const Pose> target) {
-  update(w.contacts, w.collider.find(w.bodies.start, target, w.settings.contact->margin), w.bodies);
+  update(w.contacts, w.collider.find(poseAtStart(w), target, w.settings.contact->margin), w.bodies);
 }
 
 bool contactsOutdated(const World::Impl& w) {
-  return w.settings.contact && w.collider.outdated(w.bodies.start, w.bodies.pose);
+  return w.settings.contact && w.collider.outdated(poseAtStart(w), w.bodies.pose);
 }
 
 // Points and links are looked at anew in every substep: their planes turn quickly.
 void findSoftContacts(World::Impl& w) {
   if (!w.settings.contact || w.softCollider.empty()) return;
   const auto touches =
-      w.softCollider.find(w.bodies.start, w.bodies.pose, w.settings.contact->margin);
+      w.softCollider.find(poseAtStart(w), w.bodies.pose, w.settings.contact->margin);
   startSoftContacts(touches, w.softCollider, w.bodies, w.softContacts);
 }
 
@@ -83,12 +90,50 @@ void checkFinite(const World::Impl& w, StepReport& report) {
   }
 }
 
-void finish(World::Impl& w, double h) {
-  finishVelocities(w.bodies, h);
+// From X^t, v^t to the displaced poses, by the schemes as they stand.
+void displaceAll(World::Impl& w, int k, double h, StepReport& report) {
+  if (isSecondOrder(w.settings)) {
+    moveFreelySecondOrder(w.bodies, w.loads, w.settings.gravity, h);
+  } else {
+    moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)
+  }
+  refreshInverseMasses(w, h);
+  checkFinite(w, report);
+  if (report.notFinite) return;
+  if (w.settings.contact && (k == 0 || contactsOutdated(w))) {
+    findContactsAhead(w, w.settings.dt - (k + 1) * h);
+  }
+  findSoftContacts(w);
+  if (w.settings.method == Method::kDirect) prepareDirect(w);
+  prepareConstraints(w, h);        // multipliers of the last substep, gaps and anchors at X^t
+  solveConstraints(w, h, report);  // Delta X (52),(53)
+}
+
+// A scheme that the solve does not bear out is lowered, twice at the most, and the substep made
+// anew.
+void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
+  chooseSchemes(w);
+  w.contactsBefore = w.contacts.pairs;
+  displaceAll(w, k, h, report);
+  for (int again = 0; again < 2 && !report.notFinite && lowerSchemes(w, h); ++again) {
+    rewind(w.bodies);
+    w.contacts.pairs = w.contactsBefore;
+    displaceAll(w, k, h, report);
+  }
+}
+
+void finish(World::Impl& w, double h, StepReport& report) {
+  if (isSecondOrder(w.settings)) {
+    finishSecondOrder(w.bodies, w.loads, w.settings.gravity);
+    projectVelocities(w);
+  } else {
+    finishVelocities(w.bodies, h);  // (43)-(46)
+  }
   if (w.settings.contact && w.settings.contact->restitution > 0) {
     const double threshold = w.settings.gravity ? 2 * h * w.settings.gravity->norm() : 0;
     restitute(w.contacts, w.bodies, w.settings.contact->restitution, threshold);
   }
+  if (isSecondOrder(w.settings)) recordSchemes(w, report);
 }
 
 void restore(World::Impl& w) {
@@ -115,18 +160,9 @@ StepReport World::step() {
   drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
   for (int k = 0; k < w.settings.substeps && !report.notFinite; ++k) {
     if (isStatic) bringToRest(w.bodies);
-    moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)
-    refreshInverseMasses(w, h);
-    checkFinite(w, report);
+    isSecondOrder(w.settings) ? displaceBySchemes(w, k, h, report) : displaceAll(w, k, h, report);
     if (report.notFinite) break;
-    if (w.settings.contact && (k == 0 || contactsOutdated(w))) {
-      findContactsAhead(w, w.settings.dt - (k + 1) * h);
-    }
-    findSoftContacts(w);
-    if (w.settings.method == Method::kDirect) prepareDirect(w);
-    prepareConstraints(w, h);        // multipliers of the last substep, gaps and anchors at X^t
-    solveConstraints(w, h, report);  // Delta X (52),(53)
-    finish(w, h);                    // (43)-(46)
+    finish(w, h, report);
     checkFinite(w, report);
     ++report.substeps;
   }

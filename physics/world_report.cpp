@@ -89,8 +89,8 @@ Vec3 World::driveError(int drive) const {
 Vec3 World::driveTorque(int drive) const {
   const auto& set = std::get<Kind<DriveDef, Drive>>(impl_->kinds).set;
   require(drive >= 0 && drive < static_cast<int>(set.items.size()), "no such drive");
-  const double h = impl_->substepLength();
-  return set.lambda[drive].total / (h * h);
+  const double h = set.lambda[drive].step;
+  return h > 0 ? Vec3(set.lambda[drive].total / (h * h)) : Vec3::Zero();
 }
 
 std::vector<KindError> World::constraintErrors() const {

@@ -14,7 +14,7 @@ using physics::Field;
 using physics::Unit;
 
 constexpr const char* kMethods[] = {"nonlinear_gauss_seidel", "direct", "linear_gauss_seidel"};
-constexpr const char* kSteppings[] = {"paper", "static"};
+constexpr const char* kSteppings[] = {"paper", "static", "bdf2", "symmetric"};
 constexpr const char* kRegularisations[] = {"compliance", "damping"};
 constexpr const char* kInertias[] = {"plain", "spinning"};
 constexpr const char* kRefreshes[] = {"substep", "iteration"};

@@ -83,7 +83,10 @@ void update(Contacts& contacts, std::span<const Manifold> manifolds, const Bodie
     while (old < contacts.previous.size() && before(contacts.previous[old])) ++old;
     if (old < contacts.previous.size()) {
       const ContactPair& kept = contacts.previous[old];
-      if (kept.a == fresh.a && kept.b == fresh.b) keepState(kept, fresh);
+      if (kept.a == fresh.a && kept.b == fresh.b) {
+        keepState(kept, fresh);
+        fresh.step = kept.step;
+      }
     }
     contacts.pairs.push_back(fresh);
   }

@@ -45,6 +45,7 @@ struct ContactPair {
   bool carried = false;         // the normal turns with body b (its face); else fixed in the world
   Vec3 normal = Vec3::UnitY();  // body frame of b when carried, else world
   Friction friction;
+  double step = 0;  // that the multipliers belong to, with second-order steppings [s]
   int count = 0;
   std::array<ContactPointState, Manifold::kMaxPoints> points;
 };

@@ -187,6 +187,17 @@ void displacePair(const ContactPair& pair, const Push& lasting, const Push& once
   displace(bodies.pose[pair.b], -mb * sum.impulse, -sum.turnB);
 }
 
+// Keeps the account of angular impulses that the second-order steppings balance.
+void countTwist(const ContactPair& pair, const Visit& visit,
+                const std::array<Vec3, Manifold::kMaxPoints>& before, Bodies& bodies) {
+  for (int k = 0; k < pair.count; ++k) {
+    const ContactPointState& p = pair.points[k];
+    const Vec3 impulse = p.normalTotal * visit.n + p.frictionTotal - before[k];
+    bodies.second.twist[pair.a] += visit.armA[k].cross(impulse);
+    bodies.second.twist[pair.b] -= visit.armB[k].cross(impulse);
+  }
+}
+
 double solveNormals(ContactPair& pair, Bodies& bodies, double xi, double allowance, bool backward,
                     Visit& visit) {
   double largest = 0;
@@ -221,6 +232,10 @@ double solveFrictions(ContactPair& pair, Bodies& bodies, double xi, bool backwar
 double solve(ContactPair& pair, Bodies& bodies, double xi, double allowance, bool backward) {
   Visit visit = beginVisit(pair, bodies);
   if (!evaluateGaps(pair, bodies, visit)) return 0;
+  std::array<Vec3, Manifold::kMaxPoints> before;
+  for (int k = 0; k < pair.count && !bodies.second.empty(); ++k) {
+    before[k] = pair.points[k].normalTotal * visit.n + pair.points[k].frictionTotal;
+  }
   double largest = 0;
   if (backward) largest = solveFrictions(pair, bodies, xi, backward, visit);
   largest = std::max(largest, solveNormals(pair, bodies, xi, allowance, backward, visit));
@@ -230,6 +245,7 @@ double solve(ContactPair& pair, Bodies& bodies, double xi, double allowance, boo
                      once.impulse.sum() + once.turnA.sum() + once.turnB.sum();
   if (!std::isfinite(sum)) return sum - sum;
   displacePair(pair, lasting, once, visit.corrects, bodies);
+  if (!bodies.second.empty()) countTwist(pair, visit, before, bodies);
   return largest;
 }
 

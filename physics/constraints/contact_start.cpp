@@ -19,6 +19,16 @@ double lastingShare(const ContactPointState& p) {
   return p.normalBefore / p.normalTotal;
 }
 
+// Multipliers are impulses times the step: to those of the bodies' present step.
+double rescale(ContactPair& pair, const Bodies& bodies) {
+  if (bodies.second.empty()) return 1;
+  const bool isMovable = bodies.motion[pair.a] != Motion::kStatic;
+  const double step = bodies.second.step[isMovable ? pair.a : pair.b];
+  const double ratio = pair.step > 0 ? step / pair.step : 1;
+  pair.step = step;
+  return ratio * ratio;
+}
+
 }  // namespace
 
 void measureStart(ContactPair& pair, const Bodies& bodies) {
@@ -34,6 +44,7 @@ void measureStart(ContactPair& pair, const Bodies& bodies) {
     p.anchorB = rotationB.transpose() * armB;
     p.normal = n;
     p.gapAtStart = (armB - rotationB * p.shape.coreB).dot(n) - p.shape.radiusB;
+    if (!bodies.second.empty()) p.gapAtStart = gapOf(pair, k, bodies.second.origin);
     p.approach = n.dot(va.v + va.w.cross(armA) - vb.v - vb.w.cross(armB));
   }
 }
@@ -43,8 +54,11 @@ void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
   const Vec3 n = normalOf(pair, bodies.start);
   for (int k = 0; k < pair.count; ++k) pair.points[k].slip = slipLeft(pair.points[k], n, a, b);
   measureStart(pair, bodies);
+  const double rescaled = rescale(pair, bodies);
   for (int k = 0; k < pair.count; ++k) {
     ContactPointState& p = pair.points[k];
+    p.normalTotal *= rescaled;
+    p.frictionTotal *= rescaled;
     const double share = warm ? lastingShare(p) : 0;
     p.normalBefore = p.normalTotal;
     p.normalTotal *= share;
@@ -73,6 +87,9 @@ void push(const ContactPair& pair, Bodies& bodies) {
   bodies.shift[pair.b] -= mb.m * impulse;
   displace(bodies.pose[pair.a], ma.m * impulse, ma.inertia * torqueA);
   displace(bodies.pose[pair.b], -mb.m * impulse, -(mb.inertia * torqueB));
+  if (bodies.second.empty()) return;
+  bodies.second.twist[pair.a] += torqueA;
+  bodies.second.twist[pair.b] -= torqueB;
 }
 
 }  // namespace physics

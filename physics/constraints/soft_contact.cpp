@@ -43,6 +43,7 @@ void push(const SoftContact& contact, const Vec3& impulse, const Vec3& arm, Bodi
   }
   const InverseMass& b = bodies.inverse[contact.body];
   if (b.m == 0) return;
+  if (!bodies.second.empty()) bodies.second.twist[contact.body] -= arm.cross(impulse);
   bodies.shift[contact.body] -= b.m * impulse;
   displace(bodies.pose[contact.body], -b.m * impulse, -(b.inertia * arm.cross(impulse)));
 }

@@ -12,8 +12,12 @@ void Spring::evaluate(const Configuration& x, Push<kBodies, kRows>& push) const 
   push.active = kh2 + nuh > 0 && distance > kCoincident;
   if (!push.active) return;
   push.c[0] = distance;
-  push.f[0] =
-      -kh2 * (distance - restLength) - nuh * (distance - between(x.start, bodies, anchors).norm());
+  push.f[0] = -kh2 * (distance - restLength);
+  if (nuh > 0) {
+    push.f[0] -= nuh * changeSinceStart(x, [&](std::span<const Pose> pose) {
+      return between(pose, bodies, anchors).norm();
+    });
+  }
   push.k(0, 0) = kh2 + nuh;
   gradientAlong(dp / distance, x.now, bodies, anchors, push);
 }
@@ -28,7 +32,12 @@ void VectorSpring::evaluate(const Configuration& x, Push<kBodies, kRows>& push) 
   push.active = kh2 + nuh > 0;
   if (!push.active) return;
   push.c = between(x.now, bodies, anchors);
-  push.f = -kh2 * push.c - nuh * (push.c - between(x.start, bodies, anchors));
+  push.f = -kh2 * push.c;
+  if (nuh > 0) {
+    push.f -= nuh * changeSinceStart(x, [&](std::span<const Pose> pose) -> Vec3 {
+      return between(pose, bodies, anchors);
+    });
+  }
   push.k = (kh2 + nuh) * Mat3::Identity();
   gradientOfGap(x.now, bodies, anchors, push);
 }

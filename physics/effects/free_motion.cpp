@@ -13,14 +13,10 @@ namespace {
 // way. NOTES 3.2
 constexpr double kLargestTurn = 0.2;  // rad
 
-bool isotropic(const Vec3& inertia) {
-  return inertia.x() == inertia.y() && inertia.y() == inertia.z();
-}
-
 void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
   Pose& pose = bodies.pose[i];
   Vec3& w = bodies.velocity[i].w;
-  if (isotropic(bodies.inertia[i])) {                 // the gyroscopic torque is zero
+  if (isIsotropic(bodies.inertia[i])) {                 // the gyroscopic torque is zero
     w += dt * bodies.inverseInertia[i].x() * torque;  // (30)
     bodies.freeTurn[i] = dt * w;
   } else {
@@ -34,8 +30,12 @@ void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
   pose.q = exponential(bodies.freeTurn[i]) * pose.q;  // (31)
 }
 
-// The turn of this substep, with as many whole turns as the free motion made: the logarithm alone
-// would take a spin beyond pi/h for one the other way round.
+}  // namespace
+
+bool isIsotropic(const Vec3& inertia) {
+  return inertia.x() == inertia.y() && inertia.y() == inertia.z();
+}
+
 Vec3 unwrapped(const Vec3& turn, const Vec3& free) {
   const double angle = turn.norm();
   if (angle < 1e-9 || free.squaredNorm() < 1) return turn;
@@ -43,11 +43,9 @@ Vec3 unwrapped(const Vec3& turn, const Vec3& free) {
   return (angle + 2 * kPi * std::nearbyint((free.dot(axis) - angle) / (2 * kPi))) * axis;
 }
 
-}  // namespace
-
-// Newton on F(Omega_m) = I Omega_m - (M + exp(-h Omega_m) M)/2; dF = I - h/2 [M']x to first order
-// in h.
-FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt) {
+// Newton on F(Omega_m) = I Omega_m - (1 - e) M - e exp(-h Omega_m) M; dF = I - e h [M']x to first
+// order in h.
+FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end) {
   constexpr int kMostIterations = 30;
   const Vec3 momentum = inertia.cwiseProduct(omega);
   const double scale = momentum.norm();
@@ -55,56 +53,60 @@ FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt) {
   if (scale == 0) return turn;
   for (int k = 0; k < kMostIterations; ++k) {
     const Vec3 after = exponential(-dt * turn.mean) * momentum;
-    const Vec3 residual = inertia.cwiseProduct(turn.mean) - 0.5 * (momentum + after);
+    const Vec3 residual = inertia.cwiseProduct(turn.mean) - (1 - end) * momentum - end * after;
     if (residual.norm() <= 4e-16 * scale || k == kMostIterations - 1) {
       turn.converged = residual.norm() <= 1e-9 * scale;
       turn.after = after.cwiseQuotient(inertia);
       break;
     }
-    Mat3 jacobian = -0.5 * dt * skew(after);
+    Mat3 jacobian = -end * dt * skew(after);
     jacobian.diagonal() += inertia;
     turn.mean -= jacobian.inverse() * residual;
   }
   return turn.converged ? turn : FreeTurn{omega, omega, false};
 }
 
+void moveFreely(Bodies& bodies, BodyId i, const Load& load, const std::optional<Vec3>& gravity,
+                double dt) {
+  bodies.start[i] = bodies.pose[i];
+  if (bodies.motion[i] == Motion::kStatic) return;
+  Velocity& velocity = bodies.velocity[i];
+  bodies.shift[i].setZero();
+  bodies.correction[i] = {};
+  if (bodies.motion[i] == Motion::kDynamic) {
+    if (gravity) velocity.v += dt * *gravity;  // (28)
+    velocity.v += dt * bodies.inverse[i].m * load.force;
+  }
+  bodies.pose[i].x += dt * velocity.v;  // (29)
+  if (bodies.inverseInertia[i].isZero(0)) {
+    bodies.freeTurn[i] = dt * velocity.w;
+    if (!velocity.w.isZero(0)) bodies.pose[i].q = exponential(dt * velocity.w) * bodies.pose[i].q;
+  } else {
+    turnFreely(bodies, i, load.torque, dt);
+  }
+}
+
 void moveFreely(Bodies& bodies, std::span<const Load> loads, const std::optional<Vec3>& gravity,
                 double dt) {
-  for (int i = 0; i < bodies.size(); ++i) {
-    bodies.start[i] = bodies.pose[i];
-    if (bodies.motion[i] == Motion::kStatic) continue;
-    Velocity& velocity = bodies.velocity[i];
-    bodies.shift[i].setZero();
-    bodies.correction[i] = {};
-    if (bodies.motion[i] == Motion::kDynamic) {
-      if (gravity) velocity.v += dt * *gravity;  // (28)
-      velocity.v += dt * bodies.inverse[i].m * loads[i].force;
-    }
-    bodies.pose[i].x += dt * velocity.v;  // (29)
-    if (bodies.inverseInertia[i].isZero(0)) {
-      bodies.freeTurn[i] = dt * velocity.w;
-      if (!velocity.w.isZero(0)) bodies.pose[i].q = exponential(dt * velocity.w) * bodies.pose[i].q;
-    } else {
-      turnFreely(bodies, i, loads[i].torque, dt);
-    }
+  for (int i = 0; i < bodies.size(); ++i) moveFreely(bodies, i, loads[i], gravity, dt);
+}
+
+void finishVelocity(Bodies& bodies, BodyId i, double dt) {
+  if (bodies.motion[i] != Motion::kDynamic) return;
+  bodies.velocity[i].v += bodies.shift[i] / dt;  // (43)
+  if (bodies.inverseInertia[i].isZero(0)) return;
+  bodies.pose[i].q.normalize();
+  const Quat moved = exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
+  const Vec3 turn = unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
+  if (isIsotropic(bodies.inertia[i])) {
+    bodies.velocity[i].w = turn / dt;  // bounded by pi/h, where the sum (45) is not; paper.md
+  } else {
+    bodies.velocity[i].w += (turn - bodies.freeTurn[i]) / dt;
   }
 }
 
 void finishVelocities(Bodies& bodies, double dt) {
-  for (int i = 0; i < bodies.size(); ++i) {
-    if (bodies.motion[i] != Motion::kDynamic) continue;
-    bodies.velocity[i].v += bodies.shift[i] / dt;  // (43)
-    if (bodies.inverseInertia[i].isZero(0)) continue;
-    bodies.pose[i].q.normalize();
-    const Quat moved = exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
-    const Vec3 turn =
-        unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
-    if (isotropic(bodies.inertia[i])) {
-      bodies.velocity[i].w = turn / dt;  // bounded by pi/h, where the sum (45) is not; paper.md
-    } else {
-      bodies.velocity[i].w += (turn - bodies.freeTurn[i]) / dt;
-    }
-  }
+  for (int i = 0; i < bodies.size(); ++i) finishVelocity(bodies, i, dt);
 }
 
 void refreshInertia(Bodies& bodies) {

@@ -19,7 +19,10 @@ struct FreeTurn {
   Vec3 after = Vec3::Zero();  // Omega' = I^-1 M' [rad/s]
   bool converged = true;      // false: Omega is kept as it was
 };
-FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt);
+//
+// With `end` = 1 in place of 1/2, M' alone: I Omega_m = M', the backward Euler step, which keeps the
+// angular momentum and loses energy.
+FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end = 0.5);
 
 // External loads of a step, world frame.
 struct Load {
@@ -30,10 +33,19 @@ struct Load {
 // Moves bodies.pose from bodies.start over dt and sets velocities, shifts and free turns to match.
 void moveFreely(Bodies& bodies, std::span<const Load> loads, const std::optional<Vec3>& gravity,
                 double dt);
+void moveFreely(Bodies& bodies, BodyId body, const Load& load, const std::optional<Vec3>& gravity,
+                double dt);
 
 // Velocities from the displacements that the solve made, (43) and the quaternion logarithm for
 // (45).
 void finishVelocities(Bodies& bodies, double dt);
+void finishVelocity(Bodies& bodies, BodyId body, double dt);
+
+// The turn of this substep, with as many whole turns as `free`: the logarithm alone would take a
+// spin beyond pi/h for one the other way round.
+Vec3 unwrapped(const Vec3& turn, const Vec3& free);
+
+bool isIsotropic(const Vec3& inertia);
 
 // R I^-1 R^T at the present poses.
 void refreshInertia(Bodies& bodies);

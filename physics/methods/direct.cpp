@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include "physics/constraint_solve.h"
+#include "physics/effects/second_order.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
 
 namespace physics {
@@ -12,6 +13,10 @@ namespace {
 // Keeps the factor regular where rows repeat each other (loops): relative to the joint's own A.
 // NOTES 3.5
 constexpr double kRedundancy = 1e-12;
+
+Scheme schemeOf(const Bodies& bodies, BodyId i) {
+  return bodies.second.empty() ? Scheme::kPaper : bodies.second.scheme[i];
+}
 
 template <class C>
 constexpr bool isJoint() {
@@ -31,14 +36,24 @@ void forEachJoint(World::Impl& world, F&& f) {
   });
 }
 
+enum class Stage { kDisplacements, kVelocities };
+
+// c at the present poses; J there, or at the start of the step where the symmetric scheme displaces.
 template <class C>
-JointRows rowsOf(const C& item, const Bodies& bodies, double dt) {
+JointRows rowsOf(const C& item, const Bodies& bodies, double dt, Stage stage) {
   Row<C::kBodies, C::kRows> row;
-  item.evaluate({bodies.pose, bodies.start, dt}, row);
+  Configuration at = configurationOf(item, bodies, dt);
+  item.evaluate(at, row);
   JointRows joint;
   joint.bodies = item.bodies;
   joint.rows = C::kRows;
   joint.right.head(C::kRows) = -row.c;
+  joint.error = row.c.norm();
+  joint.isSymmetric = isSymmetric(item, bodies);
+  if (joint.isSymmetric && stage == Stage::kDisplacements) {
+    at.now = bodies.start;
+    item.evaluate(at, row);
+  }
   for (int b = 0; b < 2; ++b) {
     joint.linear[b].setZero();
     joint.angular[b].setZero();
@@ -58,6 +73,7 @@ void load(const C& item, const JointRows& joint, const Vec3& lambda, const Bodie
     const Vec3 force = joint.linear[b].transpose() * lambda;
     body.impulse += force;
     body.torque += joint.angular[b].transpose() * lambda;
+    if (joint.isSymmetric) continue;  // its directions do not turn with the displacement
     if constexpr (requires { item.anchors; }) {
       const Vec3 arm = bodies.pose[item.bodies[b]].q * item.anchors[b];
       const double length2 = arm.squaredNorm(), along = force.dot(arm);
@@ -72,6 +88,14 @@ void load(const C& item, const JointRows& joint, const Vec3& lambda, const Bodie
       }
     }
   }
+}
+
+// What the balance of angular momentum still lacks, in the units of lambda: (M dX - J^T lambda).
+Vec3 twistLeft(const Bodies& bodies, BodyId i, const Mat3& inertia, const JointMotion& m) {
+  const Scheme scheme = schemeOf(bodies, i);
+  if (scheme == Scheme::kBdf2) return -missingTwist(bodies, i) - m.torque;
+  if (scheme == Scheme::kSymmetric) return bodies.second.jointTwist[i] - m.torque;
+  return inertia * m.dtheta - m.torque;
 }
 
 void invertMasses(World::Impl& world) {
@@ -90,7 +114,7 @@ void invertMasses(World::Impl& world) {
     const Mat3 rotation = world.bodies.pose[i].q.toRotationMatrix();
     const Mat3 inertia = rotation * world.bodies.inertia[i].asDiagonal() * rotation.transpose();
     m.inverseAngular = (inertia + m.stiffnessAngular).inverse();
-    m.lagAngular = m.inverseAngular * (inertia * m.dtheta - m.torque);
+    m.lagAngular = m.inverseAngular * twistLeft(world.bodies, i, inertia, m);
   }
 }
 
@@ -111,7 +135,7 @@ void respond(const World::Impl& world, double regularisation, const Vec3& lambda
 }
 
 // All joints at the present poses, and what their present multipliers do.
-void gather(World::Impl& world, double dt) {
+void gather(World::Impl& world, double dt, Stage stage) {
   for (JointMotion& m : world.jointMotion) {
     const JointMotion displaced{m.dx, m.dtheta};
     m = displaced;
@@ -119,7 +143,7 @@ void gather(World::Impl& world, double dt) {
   world.jointRows.clear();
   int first = 0;
   forEachJoint(world, [&](auto& item, auto& lambda, auto&, std::size_t) {
-    JointRows joint = rowsOf(item, world.bodies, dt);
+    JointRows joint = rowsOf(item, world.bodies, dt, stage);
     Vec3 total = Vec3::Zero();
     total.head(joint.rows) = lambda.total;
     load(item, joint, total, world.bodies, world.jointMotion);
@@ -162,9 +186,35 @@ void apply(World::Impl& world) {
   }
 }
 
+// The joints' part of the angular impulse of bodies that step symmetrically, and where it turns
+// them.
+void turnSymmetric(World::Impl& world) {
+  SecondOrder& second = world.bodies.second;
+  if (second.empty()) return;
+  for (Vec3& twist : second.jointTwist) twist.setZero();
+  forEachJoint(world, [&](auto& item, auto& lambda, auto&, std::size_t k) {
+    const JointRows& joint = world.jointRows[k];
+    if (!joint.isSymmetric) return;
+    for (int b = 0; b < 2; ++b) {
+      second.jointTwist[item.bodies[b]] +=
+          joint.angular[b].topRows(joint.rows).transpose() * lambda.total;
+    }
+  });
+  balance(world.bodies, Scheme::kSymmetric);
+}
+
+double largestError(const World::Impl& world) {
+  double largest = 0;
+  for (const JointRows& joint : world.jointRows) largest = std::max(largest, joint.error);
+  for (const JointMotion& m : world.jointMotion) {
+    largest = std::max({largest, m.lagLinear.norm(), m.lagAngular.norm()});
+  }
+  return largest;
+}
+
 // One Newton step for all joints. False: the factor broke down or gave something not finite.
 bool newtonStep(World::Impl& world, double dt) {
-  gather(world, dt);
+  gather(world, dt, Stage::kDisplacements);
   if (world.jointRows.empty()) return true;
   if (!world.joints.isLaidOutFor(world.jointRows.size())) {
     world.joints.layOut(world.jointRows, world.bodies);
@@ -174,7 +224,9 @@ bool newtonStep(World::Impl& world, double dt) {
   double sum = 0;
   for (const Vec3& change : world.jointChange) sum += change.sum();
   if (!std::isfinite(sum)) return false;
+  if (!world.bodies.second.empty()) world.jointError = largestError(world);
   apply(world);
+  turnSymmetric(world);
   return true;
 }
 
@@ -182,6 +234,29 @@ bool newtonStep(World::Impl& world, double dt) {
 
 void prepareDirect(World::Impl& world) {
   world.jointMotion.assign(world.bodies.pose.size(), JointMotion{});
+  world.jointError = 0;
+}
+
+void projectJoints(World::Impl& world) {
+  gather(world, 0, Stage::kVelocities);
+  if (world.jointRows.empty()) return;
+  for (JointRows& joint : world.jointRows) {
+    joint.right.setZero();
+    for (int b = 0; b < 2; ++b) {
+      const Velocity& velocity = world.bodies.velocity[joint.bodies[b]];
+      joint.right -= joint.linear[b] * velocity.v + joint.angular[b] * velocity.w;
+    }
+  }
+  if (!world.joints.solve(world.jointRows, world.jointChange)) return;
+  for (std::size_t k = 0; k < world.jointRows.size(); ++k) {
+    const JointRows& joint = world.jointRows[k];
+    if (!joint.isSymmetric) continue;
+    for (int b = 0; b < 2; ++b) {
+      Velocity& velocity = world.bodies.velocity[joint.bodies[b]];
+      velocity.v += joint.responseLinear[b] * world.jointChange[k];
+      velocity.w += joint.responseAngular[b] * world.jointChange[k];
+    }
+  }
 }
 
 void direct(World::Impl& world, double dt, StepReport& report) {

@@ -18,4 +18,7 @@ void prepareDirect(World::Impl& world);
 
 void direct(World::Impl& world, double dt, StepReport& report);
 
+// Velocities at the end of the symmetric scheme: J v = 0 for every joint.
+void projectJoints(World::Impl& world);
+
 }  // namespace physics

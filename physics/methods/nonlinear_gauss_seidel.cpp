@@ -1,7 +1,11 @@
 // Non-linear Gauss-Seidel.
 #include "physics/methods/nonlinear_gauss_seidel.h"
 
-#include "physics/constraint_solve.h"
+#include <algorithm>
+
+#include "physics/constraint_symmetric.h"
+#include "physics/effects/second_order.h"
+#include "physics/methods/direct.h"
 
 namespace physics {
 namespace {
@@ -13,13 +17,18 @@ void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId
 bool isDirect(const World::Impl& world) { return world.settings.method == Method::kDirect; }
 
 template <class C>
-bool solveOne(Set<C>& set, std::size_t k, Bodies& bodies, double dt) {
-  if constexpr (C::kBodies == kMany) {
-    return solve(set.items[k], set.lambda[k], set.tuned[k], bodies, dt, set.scratch);
-  } else {
-    Scratch<C> scratch;
-    return solve(set.items[k], set.lambda[k], set.tuned[k], bodies, dt, scratch);
+bool solveOne(Set<C>& set, std::size_t k, Bodies& bodies, double dt, Scratch<C>& scratch) {
+  if (isSymmetric(set.items[k], bodies)) {
+    return solveSymmetric(set.items[k], set.lambda[k], set.tuned[k], bodies, scratch);
   }
+  return solve(set.items[k], set.lambda[k], set.tuned[k], bodies, dt, scratch);
+}
+
+template <class C>
+bool solveOne(Set<C>& set, std::size_t k, Bodies& bodies, double dt) {
+  if constexpr (C::kBodies == kMany) return solveOne(set, k, bodies, dt, set.scratch);
+  Scratch<C> scratch;
+  return solveOne(set, k, bodies, dt, scratch);
 }
 
 template <class K>
@@ -67,6 +76,27 @@ bool sweepSoftContacts(World::Impl& world, double dt, StepReport& report) {
   return true;
 }
 
+// Second-order steppings: Newton goes on until no joint is further open, in the unit of its rows.
+constexpr double kClosed = 1e-9;
+
+// Rates of equalities that the projection leaves [m/s, rad/s].
+constexpr double kProjected = 1e-10;
+
+template <class C>
+double projectKind(Set<C>& set, World::Impl& world) {
+  double change = 0;
+  if constexpr (!Force<C> && canStand<C>()) {
+    for (std::size_t k = 0; k < set.items.size(); ++k) {
+      if (isDirect(world) && isEquality(set.items[k])) continue;
+      if (!isSymmetric(set.items[k], world.bodies)) continue;
+      Scratch<C> local;
+      Scratch<C>& scratch = C::kBodies == kMany ? set.scratch : local;
+      change = std::max(change, projectVelocity(set.items[k], world.bodies, scratch));
+    }
+  }
+  return change;
+}
+
 // How long to go on. The first substep has no multipliers to start from: it may settle for long,
 // once.
 struct Patience {
@@ -102,9 +132,12 @@ void prepareConstraints(World::Impl& world, double dt) {
   forEachKind(world.kinds, [&](auto& kind) {
     auto& set = kind.set;
     for (std::size_t k = 0; k < set.items.size(); ++k) {
-      if (isDirect(world) && isEquality(set.items[k]))
-        continue;  // goes on from its last multipliers
-      prepare(set.items[k], set.lambda[k], warm, set.tuned[k].split, world.bodies, dt);
+      if (isDirect(world) && isEquality(set.items[k])) {  // goes on from its last multipliers
+        rescale(set.lambda[k], stepOf(set.items[k], world.bodies, dt));
+        continue;
+      }
+      prepare(set.items[k], set.lambda[k], warm && !isSymmetric(set.items[k], world.bodies),
+              set.tuned[k].split, world.bodies, dt);
     }
   });
   for (ContactPair& pair : world.contacts.pairs) {
@@ -126,12 +159,16 @@ void iterate(World::Impl& world, double dt, StepReport& report,
              const std::function<bool()>& beforeSweep) {
   const Patience limit = patience(world, report);
   const bool accelerated = onlyContacts(world);
-  for (int k = 0; k < limit.least || (k < limit.most && report.residual > limit.tolerance); ++k) {
+  const auto isSettled = [&] {
+    return report.residual <= limit.tolerance && !(world.jointError > kClosed);
+  };
+  for (int k = 0; k < limit.least || (k < limit.most && !isSettled()); ++k) {
     const int extra = k - limit.least;  // beyond the least: forwards and backwards in turn
     if (accelerated && extra == 0) world.conjugate.begin(world.contacts);
     if (accelerated && extra > 0 && extra % 2 == 0) {
       world.conjugate.accelerate(world.contacts, world.bodies);
     }
+    if (k > 0 && !isDirect(world)) balance(world.bodies);
     if (k > 0 && world.settings.refreshInertia) refreshInverseMasses(world, dt);
     if (beforeSweep && !beforeSweep()) return;
     if (!sweep(world, dt, extra > 0 && extra % 2 == 1, report)) return;
@@ -140,6 +177,21 @@ void iterate(World::Impl& world, double dt, StepReport& report,
   const bool settling = limit.tolerance < world.settings.tolerance;
   for (ContactPair& pair : world.contacts.pairs) {
     for (ContactPointState& point : pair.points) point.settled = settling;
+  }
+}
+
+void projectVelocities(World::Impl& world) {
+  const std::vector<Scheme>& scheme = world.bodies.second.scheme;
+  if (std::find(scheme.begin(), scheme.end(), Scheme::kSymmetric) == scheme.end()) return;
+  refreshInertia(world.bodies);
+  const int most = std::max(world.settings.iterations, world.settings.maxIterations);
+  double change = 1;
+  for (int k = 0; k < most && change > kProjected; ++k) {
+    if (isDirect(world)) projectJoints(world);
+    change = 0;
+    forEachKind(world.kinds, [&](auto& kind) {
+      change = std::max(change, projectKind(kind.set, world));
+    });
   }
 }
 

@@ -18,6 +18,10 @@ void prepareConstraints(World::Impl& world, double dt);
 // False: some change was not finite, and report.notFinite names it.
 bool sweep(World::Impl& world, double dt, bool backward, StepReport& report);
 
+// Velocities on J v = 0 at the end of the symmetric scheme: the direct method's joints at once, the
+// others in sweeps.
+void projectVelocities(World::Impl& world);
+
 // Sweeps settings.iterations times, and on while contacts move by more than settings.tolerance in a
 // sweep, settings.maxIterations at the most. `beforeSweep`, where given, may end it by returning
 // false.

@@ -1,0 +1,260 @@
+// The choice of a scheme.
+#include "physics/choose_scheme.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/constraint_response.h"
+#include "physics/effects/second_order.h"
+
+namespace physics {
+namespace {
+
+// The symmetric scheme is stable up to w h = 2, w the fastest of the motion. The bodies' own
+// stiffness over their mass, K/m, is half of the chain's largest w^2 (NOTES 6: 4T/(m l) against
+// 2T/(m l)): this bound on h^2 K/m leaves a half.
+constexpr double kResolved = 1;
+
+bool isMovable(const Bodies& bodies, BodyId body) {
+  return bodies.motion[body] != Motion::kStatic;
+}
+
+BodyId rootOf(std::vector<BodyId>& island, BodyId body) {
+  while (island[body] != body) body = island[body] = island[island[body]];
+  return body;
+}
+
+void join(const Bodies& bodies, std::vector<BodyId>& island, BodyId a, BodyId b) {
+  if (!isMovable(bodies, a) || !isMovable(bodies, b)) return;
+  const BodyId i = rootOf(island, a), j = rootOf(island, b);
+  island[std::max(i, j)] = std::min(i, j);
+}
+
+bool isLoaded(const ContactPair& pair) {
+  return std::any_of(pair.points.begin(), pair.points.begin() + pair.count,
+                     [](const ContactPointState& p) { return p.normalTotal > 0; });
+}
+
+// Joined bodies, and those whose contact bears load at this moment.
+void findIslands(World::Impl& w) {
+  std::vector<BodyId>& island = w.stepper.island;
+  for (int i = 0; i < w.bodies.size(); ++i) island[i] = i;
+  forEachKind(w.kinds, [&](const auto& kind) {
+    for (const auto& item : kind.set.items) {
+      for (const BodyId body : item.bodies) join(w.bodies, island, item.bodies[0], body);
+      for (std::size_t b = 1; b < item.bodies.size(); ++b) {
+        join(w.bodies, island, item.bodies[b - 1], item.bodies[b]);
+      }
+    }
+  });
+  for (const ContactPair& pair : w.contacts.pairs) {
+    if (isLoaded(pair)) join(w.bodies, island, pair.a, pair.b);
+  }
+  for (const SoftContact& c : w.softContacts) {
+    if (c.normalTotal == 0) continue;
+    join(w.bodies, island, c.from, c.to);
+    join(w.bodies, island, c.from, c.body);
+  }
+  for (int i = 0; i < w.bodies.size(); ++i) island[i] = rootOf(island, i);
+}
+
+Scheme best(const World::Impl& w, const Allowed& allowed) {
+  const bool prefersBdf2 = w.settings.stepping == Stepping::kBdf2;
+  if (allowed.bdf2 && (prefersBdf2 || !allowed.symmetric)) return Scheme::kBdf2;
+  return allowed.symmetric ? Scheme::kSymmetric : Scheme::kPaper;
+}
+
+// Every island steps by the best scheme that all its bodies allow.
+void settleSchemes(World::Impl& w) {
+  Stepper& stepper = w.stepper;
+  std::vector<Scheme>& scheme = w.bodies.second.scheme;
+  for (int i = 0; i < w.bodies.size(); ++i) {
+    Allowed& shared = stepper.allowed[stepper.island[i]];
+    shared.bdf2 = shared.bdf2 && stepper.allowed[i].bdf2;
+    shared.symmetric = shared.symmetric && stepper.allowed[i].symmetric;
+  }
+  for (int i = 0; i < w.bodies.size(); ++i) {
+    stepper.allowed[i] = stepper.allowed[stepper.island[i]];
+    scheme[i] = best(w, stepper.allowed[i]);
+  }
+}
+
+bool hasPast(const World::Impl& w, BodyId body) {
+  return w.bodies.motion[body] == Motion::kKinematic || w.bodies.second.history[body].smooth;
+}
+
+// Speeds that gravity gives within two steps are no jump.
+double jumpSpeed(const World::Impl& w, double h) {
+  return w.settings.gravity ? 2 * h * w.settings.gravity->norm() : 0;
+}
+
+bool jumps(const ContactPair& pair, double speed) {
+  for (int k = 0; k < pair.count; ++k) {
+    const ContactPointState& p = pair.points[k];
+    if (p.normalTotal > 0 && p.normalBefore == 0 && p.approach < -speed) return true;
+  }
+  return false;
+}
+
+template <class C>
+bool isTwoSided(const Evaluated<C>& row) {
+  if constexpr (Force<C>) {
+    return true;
+  } else {
+    if (!canStand<C>()) return false;
+    constexpr double kFree = std::numeric_limits<double>::infinity();
+    return row.low == -kFree && row.high == kFree && row.longest == kFree && row.alpha == 0;
+  }
+}
+
+// J^T K J of a force, and the stiffness by which a load on a lever or along a link resists turning;
+// per body, h^2 K/m at most.
+template <class C>
+void addStiffness(const C& item, const Multipliers<C>& lambda, const Evaluated<C>& row,
+                  const World::Impl& w, std::vector<double>& ratio) {
+  const double h = w.bodies.second.h;
+  const double scale = lambda.step > 0 ? h / lambda.step : 0;
+  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+    const BodyId body = item.bodies[b];
+    const InverseMass& inverse = w.bodies.inverse[body];
+    if (inverse.m == 0) continue;
+    if constexpr (Force<C>) {
+      double k = 0;
+      if constexpr (C::kLinear) {
+        k += inverse.m * (row.linear[b].transpose() * row.k * row.linear[b]).trace() / 3;
+      }
+      if constexpr (isAngular<C>()) {
+        k += (inverse.inertia * row.angular[b].transpose() * row.k * row.angular[b]).trace() / 3;
+      }
+      ratio[body] += 4 * k;
+    } else if constexpr (C::kLinear) {
+      const Vec3 force = row.linear[b].transpose() * lambda.total * (scale * scale);
+      if constexpr (requires { item.anchors; } && isAngular<C>()) {
+        const Vec3 arm = w.bodies.pose[body].q * item.anchors[b];
+        ratio[body] += std::max(force.dot(arm), 0.0) * inverse.inertia.trace() / 3;
+      }
+      if constexpr (requires { item.length; } && C::kBodies == 2) {
+        if (item.length > 0) ratio[body] += inverse.m * force.norm() / item.length;
+      }
+    }
+  }
+}
+
+// What the solve found: who is held by limits, whose velocities jump at one, and who is too stiff.
+void inspectKinds(World::Impl& w, std::vector<double>& ratio) {
+  Stepper& stepper = w.stepper;
+  forEachKind(w.kinds, [&](auto& kind) {
+    using C = typename std::decay_t<decltype(kind)>::Item;
+    for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
+      const C& item = kind.set.items[k];
+      const Multipliers<C>& lambda = kind.set.lambda[k];
+      Scratch<C> local;
+      Scratch<C>& s = C::kBodies == kMany ? kind.set.scratch : local;
+      item.evaluate(configurationOf(item, w.bodies, w.substepLength()), s.row);
+      const bool isHeld = !isTwoSided<C>(s.row) && !lambda.total.isZero(0);
+      for (const BodyId body : item.bodies) {
+        if (isHeld) stepper.bounded[body] = true;
+        if (isHeld && !lambda.loaded) stepper.smooth[body] = false;
+      }
+      if (s.row.active) addStiffness(item, lambda, s.row, w, ratio);
+    }
+  });
+}
+
+void inspectContacts(World::Impl& w, double h) {
+  Stepper& stepper = w.stepper;
+  const double speed = jumpSpeed(w, h);
+  for (const ContactPair& pair : w.contacts.pairs) {
+    if (!isLoaded(pair)) continue;
+    stepper.bounded[pair.a] = stepper.bounded[pair.b] = true;
+    if (jumps(pair, speed)) stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
+  }
+  for (const SoftContact& c : w.softContacts) {
+    if (c.normalTotal == 0) continue;
+    for (const BodyId body : {c.from, c.to, c.body}) stepper.smooth[body] = false;
+  }
+}
+
+// What one body of an island met, all of it met.
+void shareWithinIslands(const World::Impl& w, std::vector<bool>& flag, bool shared) {
+  const std::vector<BodyId>& island = w.stepper.island;
+  for (std::size_t i = 0; i < flag.size(); ++i) {
+    if (flag[i] == shared) flag[island[i]] = shared;
+  }
+  for (std::size_t i = 0; i < flag.size(); ++i) flag[i] = flag[island[i]];
+}
+
+void inspect(World::Impl& w, double h) {
+  Stepper& stepper = w.stepper;
+  const auto size = static_cast<std::size_t>(w.bodies.size());
+  stepper.smooth.assign(size, true);
+  stepper.bounded.assign(size, false);
+  std::vector<double> ratio(size, 0.0);
+  inspectKinds(w, ratio);
+  inspectContacts(w, h);
+  for (std::size_t i = 0; i < size; ++i) stepper.unresolved[i] = !(ratio[i] <= kResolved);
+  stepper.unresolved[kWorldBody] = stepper.bounded[kWorldBody] = false;
+  stepper.smooth[kWorldBody] = true;
+  for (int i = 0; i < w.bodies.size(); ++i) {
+    if (isMovable(w.bodies, i)) continue;
+    stepper.unresolved[i] = stepper.bounded[i] = false;
+    stepper.smooth[i] = true;
+  }
+  findIslands(w);
+  shareWithinIslands(w, stepper.smooth, false);
+  shareWithinIslands(w, stepper.unresolved, true);
+  shareWithinIslands(w, stepper.bounded, true);
+}
+
+}  // namespace
+
+bool isSecondOrder(const Settings& settings) {
+  return settings.stepping == Stepping::kBdf2 || settings.stepping == Stepping::kSymmetric;
+}
+
+void chooseSchemes(World::Impl& w) {
+  Stepper& stepper = w.stepper;
+  const auto size = static_cast<std::size_t>(w.bodies.size());
+  if (w.bodies.second.scheme.size() != size) {
+    makeRoom(w.bodies.second, w.bodies.size());
+    stepper.island.resize(size);
+    stepper.allowed.resize(size);
+    stepper.unresolved.assign(size, false);
+    stepper.bounded.assign(size, false);
+    stepper.smooth.assign(size, true);
+  }
+  for (int i = 0; i < w.bodies.size(); ++i) {
+    const bool isFixed = !isMovable(w.bodies, i);
+    stepper.allowed[i] = {isFixed || hasPast(w, i),
+                          isFixed || (!stepper.unresolved[i] && !stepper.bounded[i])};
+  }
+  findIslands(w);
+  settleSchemes(w);
+}
+
+bool lowerSchemes(World::Impl& w, double h) {
+  inspect(w, h);
+  Stepper& stepper = w.stepper;
+  const std::vector<Scheme> tried = w.bodies.second.scheme;
+  for (int i = 0; i < w.bodies.size(); ++i) {
+    Allowed& allowed = stepper.allowed[i];
+    allowed.bdf2 = allowed.bdf2 && stepper.smooth[i];
+    allowed.symmetric = allowed.symmetric && stepper.smooth[i] && !stepper.unresolved[i] &&
+                        !stepper.bounded[i];
+  }
+  settleSchemes(w);
+  return w.bodies.second.scheme != tried;
+}
+
+void recordSchemes(World::Impl& w, StepReport& report) {
+  const bool wantsBdf2 = w.settings.stepping == Stepping::kBdf2;
+  for (int i = 0; i < w.bodies.size(); ++i) {
+    if (w.bodies.motion[i] != Motion::kDynamic) continue;
+    const Scheme scheme = w.bodies.second.scheme[i];
+    report.restarts += scheme == Scheme::kPaper || (wantsBdf2 && scheme == Scheme::kSymmetric);
+    report.fallbacks += !wantsBdf2 && scheme == Scheme::kBdf2;
+  }
+  remember(w.bodies, w.stepper.smooth);
+}
+
+}  // namespace physics

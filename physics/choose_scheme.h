@@ -1,0 +1,20 @@
+// The choice of a scheme for every body's substep, and whether the solve bears it out. stepping.h
+#pragma once
+
+#include "physics/world_impl.h"
+
+namespace physics {
+
+// True where the World steps by a second-order scheme.
+bool isSecondOrder(const Settings& settings);
+
+// Before the free motion.
+void chooseSchemes(World::Impl& world);
+
+// After the solve: true where the substep has to be made anew, with schemes already lowered.
+bool lowerSchemes(World::Impl& world, double h);
+
+// At the end of a substep: what the next one needs to know, and what is counted.
+void recordSchemes(World::Impl& world, StepReport& report);
+
+}  // namespace physics
