@@ -17,19 +17,22 @@ namespace physics {
 
 // What a constraint may look at: the present displaced poses X^{t+1} + dX, the poses at the start
 // of the substep, and its length [s]. By bdf2 the start is where backward Euler would have started,
-// dt two thirds of the substep, and `origin` and `before` are X^t and X^{t-1}.
+// dt two thirds of the substep, and `origin` and `before` are X^t and X^{t-1}. By the symmetric
+// scheme a force is looked at in the middle of the substep, dt is half of it and `end` is X^{t+1}.
 struct Configuration {
   std::span<const Pose> now, start;
   double dt = 0;
-  std::span<const Pose> origin{}, before{};
+  std::span<const Pose> origin{}, before{}, end{};
 };
 
-// c now less c at the start, c a function of the poses: over dt it is the rate of c. At bdf2's start
-// a curved c would be off by c'' h^2, and its rate by first order.
+// What c, a function of the poses, has changed by since the start; over dt it is the rate of c. Of a
+// curved c the second-order steppings may not take c(now) - c(start): that rate is off by O(dt).
 template <class F>
 auto changeSinceStart(const Configuration& x, F&& c) {
-  if (x.before.empty()) return decltype(c(x.now))(c(x.now) - c(x.start));
-  return decltype(c(x.now))(c(x.now) - (4 * c(x.origin) - c(x.before)) / 3);
+  using Value = decltype(c(x.now));
+  if (!x.end.empty()) return Value((c(x.end) - c(x.start)) / 2);
+  if (!x.before.empty()) return Value(c(x.now) - (4 * c(x.origin) - c(x.before)) / 3);
+  return Value(c(x.now) - c(x.start));
 }
 
 // The number of bodies of a kind whose constraints have each their own: the nodes of a rope.

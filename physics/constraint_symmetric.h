@@ -21,7 +21,7 @@ bool pushSymmetric(const C& item, Multipliers<C>& lambda, const typename Set<C>:
   for (const BodyId body : item.bodies) {
     second.middle[body] = middleOf(bodies.start[body], bodies.pose[body]);
   }
-  item.evaluate({second.middle, bodies.start, 0.5 * second.h}, s.row);
+  item.evaluate({second.middle, bodies.start, 0.5 * second.h, {}, {}, bodies.pose}, s.row);
   if (!s.row.active) return true;
   const auto a = resistance(item, s.row, bodies.inverse, s.response);
   if (!(a.trace() > 1e-300)) return a.trace() == a.trace();

@@ -215,7 +215,10 @@ double largestError(const World::Impl& world) {
 // One Newton step for all joints. False: the factor broke down or gave something not finite.
 bool newtonStep(World::Impl& world, double dt) {
   gather(world, dt, Stage::kDisplacements);
-  if (world.jointRows.empty()) return true;
+  if (world.jointRows.empty()) {
+    balance(world.bodies);
+    return true;
+  }
   if (!world.joints.isLaidOutFor(world.jointRows.size())) {
     world.joints.layOut(world.jointRows, world.bodies);
   }
