@@ -16,15 +16,6 @@ namespace {
 
 constexpr int kMostLooks = 4;  // how often contacts are looked for anew within one substep
 
-// Before the first step, when it is known which points a soft surface touches for.
-void takeShapes(World::Impl& w) {
-  for (BodyId body = kWorldBody + 1; body < w.bodies.size(); ++body) {
-    const bool isMovable = w.bodies.motion[body] == Motion::kDynamic;
-    if (!w.bodies.isSoft[body]) w.collider.add(body, w.bodies.shape[body], isMovable);
-    w.softCollider.addBody(body, w.bodies.shape[body]);
-  }
-}
-
 // X^t; Bodies::start is where backward Euler would have started.
 std::span<const Pose> poseAtStart(const World::Impl& w) {
   return w.bodies.second.empty() ? w.bodies.start : w.bodies.second.origin;
@@ -154,7 +145,7 @@ StepReport World::step() {
   const double h = w.substepLength();
   const bool isStatic = w.settings.stepping == Stepping::kStatic;
   StepReport report;
-  if (w.settings.contact && w.stepCount == 0) takeShapes(w);
+  if (w.settings.contact) w.takeShapes();
   w.last.pose = w.bodies.pose;
   w.last.velocity = w.bodies.velocity;
   drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)

@@ -31,6 +31,8 @@
 
 namespace physics {
 
+struct ConstraintItem;
+
 class World {
  public:
   explicit World(
@@ -68,6 +70,10 @@ class World {
   StepReport step();
 
   // Between steps:
+  // Every body's pose and velocity, by BodyId, from whatever found them. Multipliers and history of
+  // earlier steps are forgotten, and contacts() are those at these poses. False, and nothing is
+  // changed, where a number is not finite or a quaternion is zero.
+  bool setState(std::span<const Pose> poses, std::span<const Velocity> velocities);
   void setVelocity(BodyId body, const Velocity& velocity);
   void setDriveTarget(int drive,
                       const Quat& target);  // orientation of bodies[1] in bodies[0]'s frame
@@ -83,6 +89,8 @@ class World {
   std::vector<KindError> constraintErrors() const;  // one per kind present, in the table's order
   std::vector<ContactReport> contacts() const;      // gap <= margin
   std::vector<JointReport> joints() const;          // every pair that a constraint holds together
+  std::vector<ConstraintItem> constraints() const;  // all of them and the forces, constraint_item.h
+  std::vector<std::array<BodyId, 2>> ignoredPairs() const;  // first < second, sorted
   std::vector<VolumeReport> volumes() const;
   std::vector<ArmReport> arms() const;
   double largestOverlap() const;  // m, over the contacts at the present poses; >= 0

@@ -42,6 +42,10 @@ struct World::Impl {
     std::vector<Velocity> velocity;
   } last;
 
+  bool hasShapes = false;
+  // Before contacts are first looked for, when it is known which points a soft surface touches for.
+  void takeShapes();
+
   void ignore(BodyId a, BodyId b) {
     collider.ignore(a, b);
     softCollider.ignore(a, b);

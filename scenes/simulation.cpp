@@ -97,6 +97,14 @@ physics::StepReport Simulation::advance() {
   return report;
 }
 
+bool Simulation::place(std::span<const physics::Pose> poses,
+                       std::span<const physics::Velocity> velocities) {
+  impl_->iterations = 0;
+  impl_->finite = impl_->built.world.setState(poses, velocities);
+  if (impl_->finite) ++impl_->frame;
+  return impl_->finite;
+}
+
 int Simulation::frame() const { return impl_->frame; }
 bool Simulation::isFinite() const { return impl_->finite; }
 const Scene& Simulation::scene() const { return impl_->scene; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,10 @@ class Simulation {
 
   // Applies what is scripted (pose sequences, kinematic paths) and steps to the next frame.
   physics::StepReport advance();
+
+  // Instead of advance(): the next frame as another program found it, by BodyId. False, and the
+  // frame stays, where a number is not finite.
+  bool place(std::span<const physics::Pose> poses, std::span<const physics::Velocity> velocities);
 
   int frame() const;
   bool isFinite() const;  // false once a step met a number that is not finite; the frame stays

@@ -125,6 +125,9 @@ void Collider::add(BodyId body, const Shape& shape, bool movable) {
 }
 
 void Collider::ignore(BodyId a, BodyId b) { impl_->pairs.ignore(a, b); }
+std::span<const std::pair<BodyId, BodyId>> Collider::ignored() const {
+  return impl_->pairs.ignored();
+}
 
 std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<const Pose> end,
                                          double margin) {

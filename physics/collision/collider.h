@@ -44,9 +44,11 @@ class Collider {
   Collider(Collider&&) noexcept;
   Collider& operator=(Collider&&) noexcept;
 
-  // `movable` false: nothing pushes it; two such bodies are never a pair. Ids are added in increasing order.
+  // `movable` false: nothing pushes it; two such bodies are never a pair. Ids are added in
+  // increasing order.
   void add(BodyId body, const Shape& shape, bool movable);
   void ignore(BodyId a, BodyId b);  // this pair never touches (jointed neighbours)
+  std::span<const std::pair<BodyId, BodyId>> ignored() const;  // sorted, first < second
 
   // Finds all manifolds whose gap can close while bodies move from `start` to `end` (poses indexed
   // by BodyId, the same length). A point is reported when its gap at `start` is at most `margin`

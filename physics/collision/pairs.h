@@ -41,6 +41,7 @@ class Pairs {
  public:
   void add(BodyId body, const Shape& shape, bool movable);
   void ignore(BodyId a, BodyId b);
+  const std::vector<std::pair<BodyId, BodyId>>& ignored() const { return ignored_; }
 
   // Takes the motion of all items over and brings the list up to date: afterwards it holds every
   // pair whose surfaces come within `margin` of each other between start and end.
