@@ -36,7 +36,7 @@
 //   methods = ["paper", "bdf2"]   # of scenes/studies/methods.toml
 //   steps = [1]            # World steps per sample; contacts are found once in each
 //   substeps = [1, 2, 4, 8]
-//   iterations = [1, 4]    # for methods that iterate
+//   iterations = [1, 4]    # for methods that iterate; the others keep the scene's
 //   [sweep.paper]          # other values for one method, and overrides: set = [...]
 //   substeps = [1, 16, 256]
 //   [[published]]          # numbers of others, drawn as such
@@ -64,12 +64,12 @@ struct StudyQuantity {
   double times = 1, plus = 0, weight = 1;
   Over over = Over::kEach;
   std::optional<double> from, to;  // s
-  int line = 0, column = 0;        // in the file
 };
 std::span<const char* const> names(StudyQuantity::Over);
 
 struct StudyGrid {  // what is swept for one method
-  std::vector<int> steps{1}, substeps{1}, iterations{1};
+  std::vector<int> steps{1}, substeps{1};
+  std::vector<int> iterations{0};  // 0: the scene's own
   std::vector<std::string> set;
 };
 
@@ -80,7 +80,8 @@ struct StudyReference {
   std::optional<double> accuracy;
   std::string accuracyColumn;
   bool self = false;
-  StudyGrid run;  // of `self`: one value each
+  StudyGrid run;    // of `self`: one value each
+  std::string text;  // of the table's file
 };
 
 struct StudyPublished {
@@ -116,5 +117,8 @@ std::span<const char* const> names(StudyCase::Error);
 StudyCase readStudyCase(const std::string& study);
 StudyCase parseStudyCase(const std::string& text, const std::string& path);
 std::vector<std::string> studyCases();  // paths of those that are shipped, sorted
+
+// The case's scene with its own overrides and these.
+Scene studyScene(const StudyCase& study, std::span<const std::string> more);
 
 }  // namespace scenes

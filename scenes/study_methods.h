@@ -2,21 +2,28 @@
 // engine beside ours.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace scenes {
 
 struct StudyMethod {
+  enum class Marker {
+    kCircle, kSquare, kTriangle, kTriangleDown, kDiamond, kPentagon,
+    kCircleOpen, kSquareOpen, kTriangleOpen, kTriangleDownOpen, kDiamondOpen, kPentagonOpen,
+    kPlus, kCross, kStar
+  };
   std::string name, title, about;
   std::vector<std::string> set;  // overrides that choose it
   std::string peer;              // "bullet", "ode": another engine; empty: ours
   std::string color;             // "#rrggbb"
-  int marker = 7;                // gnuplot's point type
+  Marker marker = Marker::kCircle;
   bool iterates = true;          // whether the number of iterations matters
 };
+std::span<const char* const> names(StudyMethod::Marker);
 
-// Throws InputError. `methods` of the file that ships, in its order.
+// Of the file that ships, in its order. Throw InputError.
 std::vector<StudyMethod> studyMethods();
 std::vector<StudyMethod> parseStudyMethods(const std::string& text, const std::string& path);
 
