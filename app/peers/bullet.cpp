@@ -1,0 +1,125 @@
+// Bullet with rigid bodies and joints between them, by three of its solvers.
+#include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
+#include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
+
+#include "app/peers/bullet_multibody.h"
+#include "app/peers/bullet_world.h"
+#include "app/peers/engines.h"
+
+namespace app {
+namespace {
+
+using physics::Mat3;
+using physics::Vec3;
+using Kind = PeerJoint::Kind;
+
+enum class Solver { kSequential, kConjugate, kDirect };
+
+class BulletRigid : public BulletPeer {
+ public:
+  BulletRigid(const physics::World& world, Blueprint plan, Solver solver, int iterations)
+      : BulletPeer(world, std::move(plan),
+                   std::vector<bool>(static_cast<std::size_t>(world.bodyCount()), false)) {
+    makeSolver(solver);
+    world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadPhase_, solver_.get(),
+                                                       &configuration_);
+    if (iterations > 0) world_->getSolverInfo().m_numIterations = iterations;
+    // A direct solver is better off with islands one by one, says Bullet.
+    if (solver == Solver::kDirect) world_->getSolverInfo().m_minimumSolverBatchSize = 1;
+    addRigidBodies(*world_);
+    for (const PeerJoint& joint : plan_.joints) addJoint(joint);
+  }
+  ~BulletRigid() override {
+    for (const auto& joint : joints_) world_->removeConstraint(joint.get());
+    for (const auto& body : rigid_) world_->removeRigidBody(body.get());
+  }
+
+  std::int64_t warnings() const override { return direct_ ? direct_->getNumFallbacks() : 0; }
+
+ protected:
+  btDiscreteDynamicsWorld& world() const override { return *world_; }
+
+ private:
+  void makeSolver(Solver solver) {
+    if (solver == Solver::kSequential) {
+      solver_ = std::make_unique<btSequentialImpulseConstraintSolver>();
+    } else if (solver == Solver::kConjugate) {
+      solver_ = std::make_unique<btNNCGConstraintSolver>();
+    } else {
+      auto direct = std::make_unique<btMLCPSolver>(&dantzig_);
+      direct_ = direct.get();
+      solver_ = std::move(direct);
+    }
+  }
+
+  // The frame of a hinge in body `side`: z is the axis, and both frames agree at the start.
+  btTransform frame(const PeerJoint& joint, int side) const {
+    const Vec3 n = axisAtStart(plan_, joint, 0), u = physics::anyNormalTo(n);
+    Mat3 axes;
+    axes << u, n.cross(u), n;
+    const physics::Quat q =
+        plan_.start.pose[joint.bodies[side]].q.conjugate() * physics::Quat(axes);
+    return toBullet(physics::Pose{joint.anchors[side], q});
+  }
+
+  void addJoint(const PeerJoint& joint) {
+    btRigidBody &a = *rigid_[joint.bodies[0]], &b = *rigid_[joint.bodies[1]];
+    if (a.isStaticOrKinematicObject() && b.isStaticOrKinematicObject()) return;
+    if (joint.kind == Kind::kBall) {
+      joints_.push_back(std::make_unique<btPoint2PointConstraint>(a, b, toBullet(joint.anchors[0]),
+                                                                  toBullet(joint.anchors[1])));
+    } else {
+      auto hinge = std::make_unique<btHingeConstraint>(a, b, frame(joint, 0), frame(joint, 1));
+      // Bullet counts the turn of its first body against its second.
+      if (joint.limits) hinge->setLimit(-(*joint.limits)[1], -(*joint.limits)[0]);
+      joints_.push_back(std::move(hinge));
+    }
+    world_->addConstraint(joints_.back().get());
+  }
+
+  btDantzigSolver dantzig_;
+  std::unique_ptr<btConstraintSolver> solver_;
+  btMLCPSolver* direct_ = nullptr;  // solver_, where it is one
+  std::unique_ptr<btDiscreteDynamicsWorld> world_;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+};
+
+template <Solver solver>
+PeerStart startRigid(const physics::World& world, int iterations) {
+  Blueprint plan = makeBlueprint(world);
+  if (!plan.refusal.empty()) return {nullptr, plan.refusal};
+  for (const PeerJoint& joint : plan.joints) {
+    if (joint.kind == Kind::kDistance)
+      return {nullptr, "Bullet has no joint that keeps a distance"};
+  }
+  return {std::make_unique<BulletRigid>(world, std::move(plan), solver, iterations), ""};
+}
+
+}  // namespace
+
+PeerOffer bulletOffer() {
+  const std::string setup =
+      "; one step of the length asked, ERP 0.2, split impulses, gyroscopic terms, springs as "
+      "explicit forces";
+  const int iterations = btContactSolverInfo().m_numIterations;
+  PeerOffer offer{{"Bullet", DBD_PEER_VERSION ", double precision", "libbullet-dev"}, {}};
+  const auto add = [&](const char* name, const char* title, const char* note, int count,
+                       auto start) {
+    offer.entries.push_back({{name, title, "Bullet", note + setup, count}, start});
+  };
+  add("bullet", "Bullet, sequential impulses", "projected Gauss-Seidel with warm start", iterations,
+      startRigid<Solver::kSequential>);
+  add("bullet_nncg", "Bullet, conjugate gradients", "non-smooth non-linear conjugate gradients",
+      iterations, startRigid<Solver::kConjugate>);
+  add("bullet_dantzig", "Bullet, direct", "one linear complementarity problem by Dantzig's method",
+      0, startRigid<Solver::kDirect>);
+  add("bullet_multibody", "Bullet, articulated", "joint coordinates, Featherstone's algorithm",
+      iterations, startMultibody<false>);
+  add("bullet_multibody_rk4", "Bullet, articulated, Runge-Kutta",
+      "joint coordinates, Featherstone's algorithm, four evaluations a step", iterations,
+      startMultibody<true>);
+  return offer;
+}
+
+}  // namespace app

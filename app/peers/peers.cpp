@@ -1,0 +1,41 @@
+// The peers that were found when this was built.
+#include "app/peers/engines.h"
+#include "app/peers/peer.h"
+
+namespace app {
+namespace {
+
+const std::vector<PeerOffer>& offers() {
+  static const std::vector<PeerOffer> kOffers{bulletOffer(), odeOffer()};
+  return kOffers;
+}
+
+}  // namespace
+
+std::vector<PeerEngine> peerEngines() {
+  std::vector<PeerEngine> engines;
+  for (const PeerOffer& offer : offers()) engines.push_back(offer.engine);
+  return engines;
+}
+
+std::vector<PeerMethod> peerMethods() {
+  std::vector<PeerMethod> methods;
+  for (const PeerOffer& offer : offers()) {
+    for (const PeerEntry& entry : offer.entries) methods.push_back(entry.method);
+  }
+  return methods;
+}
+
+PeerStart startPeer(const std::string& method, const physics::World& world, int iterations) {
+  physics::require(iterations >= 0, "a peer's iterations must not be negative");
+  for (const PeerOffer& offer : offers()) {
+    for (const PeerEntry& entry : offer.entries) {
+      if (entry.method.name == method) {
+        return entry.start(world, iterations > 0 ? iterations : entry.method.iterations);
+      }
+    }
+  }
+  throw std::invalid_argument("no peer '" + method + "' was found when this was built");
+}
+
+}  // namespace app
