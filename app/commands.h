@@ -15,5 +15,6 @@ void addCheck(CLI::App& line, Action& action);
 void addDoctor(CLI::App& line, Action& action);
 void addFigures(CLI::App& line, Action& action);
 void addGallery(CLI::App& line, Action& action);
+void addStudy(CLI::App& line, Action& action);
 
 }  // namespace app

@@ -23,6 +23,8 @@ video, .poster { width: 100%; height: auto; border-radius: 4px; background: #fff
 .sides { display: grid; grid-template-columns: minmax(0, 3fr) minmax(0, 2fr); gap: 1.5rem; }
 .three { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: .8rem; }
 .three img { width: 100%; border: 1px solid var(--line); image-rendering: pixelated; }
+.shots { display: grid; grid-template-columns: repeat(auto-fit, minmax(14rem, 1fr)); gap: .8rem; margin: 0 0 1rem; }
+summary { cursor: pointer; color: var(--quiet); } details table { font-size: .8rem; } details { overflow-x: auto; }
 figure { margin: 0; } figcaption { color: var(--quiet); font-size: .85rem; }
 @media (max-width: 56rem) { .sides, .three { grid-template-columns: 1fr; } }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; margin: 0 0 1rem; }

@@ -47,6 +47,7 @@ ExitCode run(int argc, const char* const* argv) {
   app::addSimulate(line, action);
   app::addRender(line, action);
   app::addFigures(line, action);
+  app::addStudy(line, action);
   app::addGolden(line, action);
   app::addCompare(line, action);
   app::addCheck(line, action);

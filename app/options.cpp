@@ -36,6 +36,10 @@ void addScene(CLI::App& command, CommonOptions& options) {
 
 void addCommon(CLI::App& command, CommonOptions& options) {
   addOutput(command, options);
+  addOverrides(command, options);
+}
+
+void addOverrides(CLI::App& command, CommonOptions& options) {
   command
       .add_option("--set", options.overrides,
                   "Override a value of the scene, as --set simulation.iterations=32; repeatable")

@@ -36,7 +36,8 @@ struct CommonOptions {
 void addScene(CLI::App& command, CommonOptions& options);
 // -o --threads --progress --quiet; `folder` says what -o is without being given.
 void addOutput(CLI::App& command, CommonOptions& options, const std::string& folder = "out/NAME");
-void addCommon(CLI::App& command, CommonOptions& options);  // these and --set
+void addOverrides(CLI::App& command, CommonOptions& options);  // --set
+void addCommon(CLI::App& command, CommonOptions& options);     // these and --set
 void addHash(CLI::App& command, CommonOptions& options);
 
 }  // namespace app

@@ -1,0 +1,179 @@
+// The loop over cases and points.
+#include "app/study_accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "app/build_info.h"
+#include "app/output_file.h"
+#include "app/study_reference.h"
+
+namespace app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using scenes::StudyCase;
+using Status = StudyPoint::Status;
+
+StudyEffort effortOf(bool quick) {
+  if (quick) return {0.06, 0.8, 7};
+  return {};
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, "\n"));
+}
+
+std::vector<StudyPoint> readPoints(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return parsePoints(text.str());
+}
+
+// How long the run of `key` will take [s], from those of the same method and as many iterations
+// that were measured.
+double expectedSeconds(const StudyResults& results, const StudyKey& key) {
+  double seconds = 0;
+  for (const StudyPoint& point : results.points) {
+    const bool same = point.key.method == key.method && point.key.iterations == key.iterations;
+    if (!same || !(point.isOk() || point.isFailure())) continue;
+    seconds = point.wall * results.study.duration * key.work() / point.key.work();
+  }
+  return seconds;
+}
+
+}  // namespace
+
+AccuracyStudy::Inputs AccuracyStudy::inputsOf(const StudyCase& study) {
+  static const std::string program = programHash();
+  Inputs inputs;
+  inputs.reference = hashText(program + study.text + scenes::studyScene(study, {}).text +
+                              joined(study.set) + study.reference.text);
+  for (const scenes::StudyMethod& method : study.methods) {
+    inputs.methods.push_back(hashText(inputs.reference + joined(method.set) + method.peer));
+  }
+  return inputs;
+}
+
+AccuracyStudy::AccuracyStudy(std::vector<StudyCase> cases, const fs::path& folder, bool quick,
+                             bool keep, ProgressMode progress)
+    : cases_(std::move(cases)), folder_(folder), quick_(quick), effort_(effortOf(quick)) {
+  makeFolder(folder_);
+  if (keep) kept_ = readPoints(folder_ / "points.csv");
+  std::erase_if(kept_, [](const StudyPoint& point) { return point.status == Status::kSkipped; });
+  int total = 0;
+  for (const StudyCase& study : cases_) {
+    plans_.push_back(planPoints(study, quick_));
+    results_.push_back({study, {}, {}});
+    inputs_.push_back(inputsOf(study));
+    total += static_cast<int>(plans_.back().size());
+  }
+  dropStale();
+  file_.emplace(folder_ / "points.csv", kept_);
+  progress_.emplace(progress, "accuracy", "measuring", total);
+}
+
+// Points of these cases that were measured from something else. Other cases' stay.
+void AccuracyStudy::dropStale() {
+  std::erase_if(kept_, [&](const StudyPoint& point) {
+    for (std::size_t i = 0; i < cases_.size(); ++i) {
+      if (cases_[i].name != point.key.study) continue;
+      const auto& hashes = inputs_[i].methods;
+      return std::find(hashes.begin(), hashes.end(), point.inputs) == hashes.end();
+    }
+    return false;
+  });
+}
+
+const StudyPoint* AccuracyStudy::known(const StudyKey& key) const {
+  const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                  [&](const StudyPoint& point) { return point.key == key; });
+  return found == kept_.end() ? nullptr : &*found;
+}
+
+std::optional<StudyPoint> AccuracyStudy::pointFor(const PlannedPoint& planned,
+                                                  StudyResults& results,
+                                                  const scenes::StudyTrace& truth,
+                                                  const std::string& inputs) {
+  if (const StudyPoint* point = known(planned.key)) {
+    ++reused_;
+    return *point;
+  }
+  const auto m = static_cast<std::size_t>(planned.method);
+  const double expected = expectedSeconds(results, planned.key);
+  std::optional<StudyPoint> point;
+  if (expected > effort_.longest) {
+    point.emplace();
+    point->key = planned.key;
+    point->h = stepOf(results.study, planned.key);
+    point->status = Status::kSkipped;
+    point->message = fmt::format("about {:.0f} s", expected);
+  } else {
+    point = measurePoint(results.study, results.study.methods[m], results.study.grids[m],
+                         planned.key, truth, effort_);
+  }
+  if (!point) return std::nullopt;
+  point->inputs = inputs;
+  file_->append(*point);
+  return point;
+}
+
+StudyEnds AccuracyStudy::measurePoints(std::size_t index, const scenes::StudyTrace& truth) {
+  StudyResults& results = results_[index];
+  bool refused = false;
+  int method = -1;
+  for (const PlannedPoint& planned : plans_[index]) {
+    if (planned.method != method) refused = false;
+    method = planned.method;
+    if (!refused) {  // what a method cannot do once it cannot do with other steps
+      const std::optional<StudyPoint> point = pointFor(
+          planned, results, truth, inputs_[index].methods[static_cast<std::size_t>(method)]);
+      if (!point) return {true, ""};
+      results.points.push_back(*point);
+      refused = point->status == Status::kRefused;
+    }
+    progress_->advance();
+  }
+  return {};
+}
+
+StudyEnds AccuracyStudy::measure(int index) {
+  const auto i = static_cast<std::size_t>(index);
+  try {
+    const auto truth = findTruth(cases_[i], inputs_[i].reference, folder_);
+    if (!truth) return {true, ""};
+    results_[i].reference = truth->report;
+    const StudyEnds ends = measurePoints(i, truth->trace);
+    if (ends.interrupted) return ends;
+  } catch (const scenes::InputError& error) {
+    return {false, error.what()};
+  }
+  if (index + 1 == caseCount()) {
+    order();
+    progress_->finish();
+  }
+  return {};
+}
+
+// The file in the order of the plan, whatever was measured when; rows of other cases first.
+void AccuracyStudy::order() {
+  const auto isOurs = [&](const StudyPoint& point) {
+    return std::any_of(cases_.begin(), cases_.end(),
+                       [&](const StudyCase& study) { return study.name == point.key.study; });
+  };
+  std::vector<StudyPoint> points;
+  for (const StudyPoint& point : kept_) {
+    if (!isOurs(point)) points.push_back(point);
+  }
+  for (const StudyResults& results : results_) {
+    points.insert(points.end(), results.points.begin(), results.points.end());
+  }
+  file_.emplace(folder_ / "points.csv", points);
+}
+
+}  // namespace app

@@ -1,0 +1,99 @@
+// The page of `dbd study accuracy`.
+#include "app/study_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/build_info.h"
+#include "app/html.h"
+#include "app/machine.h"
+#include "app/output_file.h"
+#include "app/peers/peer.h"
+#include "app/study_section.h"
+
+namespace app {
+
+namespace {
+
+std::string machineText() {
+  std::string text = fmt::format("{}, {} threads; dbd {}, {}", processorName(), processorCount(),
+                                 version(), compiler());
+  for (const PeerEngine& engine : peerEngines()) {
+    text += engine.version.empty() ? fmt::format("; {} was not there when dbd was built ({})",
+                                                 engine.name, engine.package)
+                                   : fmt::format("; {} {}", engine.name, engine.version);
+  }
+  return text;
+}
+
+std::string busyRemark(const std::vector<StudyChapter>& chapters) {
+  int busy = 0;
+  double load = 0;
+  for (const StudyChapter& chapter : chapters) {
+    busy += chapter.results->wasBusy() ? 1 : 0;
+    for (const StudyPoint& point : chapter.results->points) load = std::max(load, point.load);
+  }
+  if (busy == 0) return "";
+  return fmt::format(
+      "<p><span class=\"bad\">The machine was busy</span> while {} of {} cases were measured (load "
+      "average up to {:.1f} on {} cores): wall times there may be too long. Errors and constraint "
+      "evaluations do not depend on it.</p>\n",
+      busy, chapters.size(), load, processorCount());
+}
+
+std::string contents(const std::vector<StudyChapter>& chapters) {
+  std::string html =
+      "<section><h2>Cases</h2>\n<table><tr><th>case</th><th>cheapest of ours to 1 "
+      "%</th><th>against "
+      "other engines, to 1 %</th><th>to 0.1 %</th></tr>\n";
+  for (const StudyChapter& chapter : chapters) {
+    const StudyResults& results = *chapter.results;
+    const std::vector<CheapestRow> rows = cheapestRows(results);
+    const auto cell = [](const CheapestRow& row) {
+      return fmt::format("<td class=\"{}\">{}</td>", row.oursWins ? "" : "bad",
+                         escapeHtml(row.verdict));
+    };
+    const StudyPoint* ours = rows[0].ours;
+    html += fmt::format("<tr><td><a href=\"#{}\">{}</a></td><td>{}</td>{}{}</tr>\n",
+                        escapeHtml(results.study.name), escapeHtml(results.study.title),
+                        ours == nullptr
+                            ? "not reached"
+                            : escapeHtml(fmt::format("{} per s, {}", secondsText(ours->wall),
+                                                     results.methodTitle(*ours))),
+                        cell(rows[0]), cell(rows[1]));
+  }
+  return html + "</table></section>\n";
+}
+
+constexpr const char* kHowMeasured =
+    "<details><summary>How this was measured</summary>\n<p>Each point simulates a whole case with "
+    "one method and one step. Its time is what the steps took, the least of the repeats, per "
+    "simulated second; measuring is not in it. Points were measured one after the other. "
+    "<em>Real time</em> is one second per simulated second: 1/60 s for a frame of 1/60 s. The "
+    "error is the distance from the reference that each case names; 100 % is the case's scale. The "
+    "order of convergence is the slope of a line through log error against log h, by least "
+    "squares, "
+    "in the range where the error falls with the step. Small marks are points that another of the "
+    "same method beats in time and error. Marks in the strip at the top failed: numbers that are "
+    "not finite, an error beyond 1000 times the scale, or given up as too slow. Constraint "
+    "evaluations are a cost that no busy machine changes; other engines do not report it. "
+    "<a href=\"points.csv\">points.csv</a> has every number.</p></details>\n";
+
+}  // namespace
+
+std::filesystem::path writeStudyPage(const std::vector<StudyChapter>& chapters,
+                                     const std::string& command, const std::string& more,
+                                     const std::filesystem::path& folder) {
+  std::string body = "<h1>What accuracy costs in time</h1>\n<p class=\"quiet\">" +
+                     escapeHtml(machineText()) + ".<br><code>" + escapeHtml(command) +
+                     "</code></p>\n" + busyRemark(chapters) + kHowMeasured;
+  if (!chapters.empty()) body += contents(chapters);
+  for (const StudyChapter& chapter : chapters) body += caseSection(chapter);
+  body += more;
+  const std::filesystem::path page = folder / "index.html";
+  writeFile(page, htmlPage("What accuracy costs in time", body));
+  return page;
+}
+
+}  // namespace app

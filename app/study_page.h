@@ -1,0 +1,25 @@
+// index.html of a study: every case with its diagrams, tables, references and pictures.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/study_shot.h"
+
+namespace app {
+
+struct StudyChapter {
+  const StudyResults* results = nullptr;
+  std::vector<StudyShot> shots;
+  bool plotted = false;
+  std::string problem;  // why it has no points
+};
+
+// `more`: HTML of other studies, below the cases. `remark`: what the reader should know first.
+std::filesystem::path writeStudyPage(const std::vector<StudyChapter>& chapters,
+                                     const std::string& command, const std::string& more,
+                                     const std::filesystem::path& folder);
+
+}  // namespace app

@@ -1,0 +1,71 @@
+// One point of a study: a case, a method and a step, with what it cost and how wrong it was; and
+// the file points.csv that keeps them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenes/study_trace.h"
+
+namespace app {
+
+struct StudyKey {
+  std::string study, method;
+  int steps = 1, substeps = 1;
+  int iterations = 0;  // 0: the scene's own
+
+  bool operator==(const StudyKey&) const = default;
+  double work() const;       // sweeps per sample, as far as the key says
+  std::string text() const;  // "4 x 20 substeps, 8 iterations"
+};
+
+struct StudyPoint {
+  enum class Status {
+    kOk,
+    kNotFinite,  // a number was not finite
+    kExploded,   // the error exceeds 1000 times the case's scale
+    kTooSlow,    // given up while being measured
+    kRefused,    // the method cannot do this scene
+    kSkipped,    // not measured: it would have taken too long
+  };
+  StudyKey key;
+  double h = 0;  // s
+  Status status = Status::kOk;
+  scenes::StudyErrors errors;
+  scenes::StudyWorst worst;
+  // All per simulated second. Wall time: the least and the median of the repeats, and how much the
+  // slowest took beyond the least, relative.
+  double wall = 0, wallMedian = 0, wallSpread = 0, processor = 0;
+  int repeats = 0;
+  double load = 0;         // the machine's average over the last minute
+  double evaluations = 0;  // of constraints
+  double sweeps = 0;
+  double restarts = 0, fallbacks = 0;  // of second-order steps
+  std::string inputs;                  // hash of all that the numbers depend on
+  std::string message;                 // why it is not ok
+
+  bool isOk() const { return status == Status::kOk; }
+  bool isFailure() const;  // it ran, and its result is worthless
+};
+
+const char* statusName(StudyPoint::Status status);
+
+// points.csv: a line for the heads, then one for each point. Numbers carry 9 digits.
+std::string pointHeads();
+std::string pointRow(const StudyPoint& point);
+// Rows that are torn or not understood are left out.
+std::vector<StudyPoint> parsePoints(const std::string& text);
+
+// Appends whole rows to the file, and each at once.
+class PointFile {
+ public:
+  // Begins the file with `points`, whatever was in it.
+  PointFile(std::filesystem::path path, const std::vector<StudyPoint>& points);
+  void append(const StudyPoint& point);
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace app
