@@ -24,7 +24,7 @@ class BulletRigid : public BulletPeer {
     makeSolver(solver);
     world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadPhase_, solver_.get(),
                                                        &configuration_);
-    if (iterations > 0) world_->getSolverInfo().m_numIterations = iterations;
+    setUp(world_->getSolverInfo(), iterations);
     // A direct solver is better off with islands one by one, says Bullet.
     if (solver == Solver::kDirect) world_->getSolverInfo().m_minimumSolverBatchSize = 1;
     addRigidBodies(*world_);
@@ -100,8 +100,8 @@ PeerStart startRigid(const physics::World& world, int iterations) {
 
 PeerOffer bulletOffer() {
   const std::string setup =
-      "; one step of the length asked, ERP 0.2, split impulses, gyroscopic terms, springs as "
-      "explicit forces";
+      "; ERP 0.2, gyroscopic terms, overlaps split from velocities where something bounces, "
+      "springs as explicit forces";
   const int iterations = btContactSolverInfo().m_numIterations;
   PeerOffer offer{{"Bullet", DBD_PEER_VERSION ", double precision", "libbullet-dev"}, {}};
   const auto add = [&](const char* name, const char* title, const char* note, int count,

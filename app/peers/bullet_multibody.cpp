@@ -33,7 +33,7 @@ class BulletTree : public BulletPeer {
       : BulletPeer(world, std::move(plan), std::move(isLink)),
         world_(&dispatcher_, &broadPhase_, &solver_, &configuration_),
         places_(static_cast<std::size_t>(world.bodyCount())) {
-    world_.getSolverInfo().m_numIterations = iterations;
+    setUp(world_.getSolverInfo(), iterations);
     addRigidBodies(world_);
     for (const Tree& tree : forest.trees) addTree(tree, isRungeKutta);
   }

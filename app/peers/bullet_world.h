@@ -38,6 +38,7 @@ class BulletPeer : public Peer {
   void setSurface(btCollisionObject& object, physics::BodyId body);
   btCollisionShape* shapeOf(physics::BodyId body) { return shapes_[body].get(); }
   int maskOf(physics::BodyId body) const;
+  void setUp(btContactSolverInfo& info, int iterations) const;
   void addRigidBodies(btDiscreteDynamicsWorld& world);
   virtual void applyLoad(physics::BodyId body, const PeerLoad& load);
   virtual btDiscreteDynamicsWorld& world() const = 0;
