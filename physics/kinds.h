@@ -10,13 +10,18 @@
 #include "physics/constraints/distance.h"
 #include "physics/constraints/drag.h"
 #include "physics/constraints/drive.h"
+#include "physics/constraints/force.h"
 #include "physics/constraints/hardening_spring.h"
 #include "physics/constraints/link.h"
 #include "physics/constraints/motor.h"
 #include "physics/constraints/motor_torque.h"
+#include "physics/constraints/orientation_lock.h"
 #include "physics/constraints/panel_drag.h"
+#include "physics/constraints/perpendicular.h"
 #include "physics/constraints/point_gravity.h"
+#include "physics/constraints/point_on_line.h"
 #include "physics/constraints/rope_length.h"
+#include "physics/constraints/slide_limit.h"
 #include "physics/constraints/spring.h"
 #include "physics/constraints/twist_limit.h"
 #include "physics/constraints/volume.h"
@@ -42,6 +47,7 @@ using Kinds = std::tuple<                       //
     Kind<SpringDef, VectorSpring>,              //
     Kind<HardeningSpringDef, HardeningSpring>,  //
     Kind<PointGravityDef, PointGravity>,        //
+    Kind<ForceDef, ConstantForce>,              //
     Kind<DragDef, Drag>,                        //
     Kind<PanelDragDef, PanelDrag>,              //
     Kind<BendDef, Bend>,                        //
@@ -54,7 +60,11 @@ using Kinds = std::tuple<                       //
     Kind<DistanceDef, Distance>,                //
     Kind<ConeLimitDef, ConeLimit>,              //
     Kind<TwistLimitDef, TwistLimit>,            //
+    Kind<SlideLimitDef, SlideLimit>,            //
     Kind<AxleDef, Axle>,                        //
+    Kind<PerpendicularDef, Perpendicular>,      //
+    Kind<OrientationLockDef, OrientationLock>,  //
+    Kind<PointOnLineDef, PointOnLine>,          //
     Kind<BallSocketDef, BallSocket>>;           //
 
 template <class F>

@@ -121,8 +121,8 @@ void finish(World::Impl& w, double h, StepReport& report) {
     finishVelocities(w.bodies, h);  // (43)-(46)
   }
   if (w.settings.contact && w.settings.contact->restitution > 0) {
-    const double threshold = w.settings.gravity ? 2 * h * w.settings.gravity->norm() : 0;
-    restitute(w.contacts, w.bodies, w.settings.contact->restitution, threshold);
+    restitute(w.contacts, w.bodies, w.settings.contact->restitution,
+              {w.settings.gravity, w.loads, h});
   }
   if (isSecondOrder(w.settings)) recordSchemes(w, report);
 }

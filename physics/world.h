@@ -13,13 +13,18 @@
 #include "physics/constraints/distance.h"
 #include "physics/constraints/drag.h"
 #include "physics/constraints/drive.h"
+#include "physics/constraints/force.h"
 #include "physics/constraints/hardening_spring.h"
 #include "physics/constraints/link.h"
 #include "physics/constraints/motor.h"
 #include "physics/constraints/motor_torque.h"
+#include "physics/constraints/orientation_lock.h"
 #include "physics/constraints/panel_drag.h"
+#include "physics/constraints/perpendicular.h"
 #include "physics/constraints/point_gravity.h"
+#include "physics/constraints/point_on_line.h"
 #include "physics/constraints/rope_length.h"
+#include "physics/constraints/slide_limit.h"
 #include "physics/constraints/soft_contact.h"
 #include "physics/constraints/spring.h"
 #include "physics/constraints/twist_limit.h"
@@ -48,6 +53,10 @@ class World {
   int add(const AxleDef& def);
   int add(const ConeLimitDef& def);
   int add(const TwistLimitDef& def);
+  int add(const PointOnLineDef& def);
+  int add(const SlideLimitDef& def);
+  int add(const OrientationLockDef& def);
+  int add(const PerpendicularDef& def);
   int add(const DistanceDef& def);
   int add(const LinkDef& def);
   int add(const RopeLengthDef& def);
@@ -56,6 +65,7 @@ class World {
   int add(const HardeningSpringDef& def);
   int add(const BendDef& def);
   int add(const PointGravityDef& def);
+  int add(const ForceDef& def);
   int add(const DragDef& def);
   int add(const PanelDragDef& def);
   int add(const DriveDef& def);

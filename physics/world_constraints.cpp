@@ -66,6 +66,27 @@ std::array<Vec3, 2> bodyAxes(const World::Impl& w, const D& def) {
 
 Vec3 toBody(const Pose& pose, const Vec3& point) { return pose.q.conjugate() * (point - pose.x); }
 
+// A world point in both bodies' frames, or the two that were given in them.
+template <class D>
+std::array<Vec3, 2> bodyAnchors(const World::Impl& w, const D& def) {
+  if (def.anchors) return *def.anchors;
+  const auto& pose = w.bodies.pose;
+  return {toBody(pose[def.bodies[0]], def.at), toBody(pose[def.bodies[1]], def.at)};
+}
+
+// A world direction in a body's frame.
+Vec3 bodyAxis(const World::Impl& w, BodyId body, const Vec3& n) {
+  return w.bodies.pose[body].q.conjugate() * direction(n);
+}
+
+// Columns u, v, n with n in the frame of a body.
+Mat3 frameAbout(const Vec3& n) {
+  const Vec3 u = anyNormalTo(n);
+  Mat3 frame;
+  frame << u, n.cross(u), n;
+  return frame;
+}
+
 void checkForce(std::initializer_list<double> parameters, const char* expectation) {
   for (const double p : parameters) require(p >= 0 && std::isfinite(p), expectation);
 }
@@ -100,21 +121,13 @@ Quat relativeOrientation(const World::Impl& w, const std::array<BodyId, 2>& bodi
 
 int World::add(const BallSocketDef& def) {
   checkBodies(*impl_, def);
-  const auto& pose = impl_->bodies.pose;
-  BallSocket item{def.bodies, {}, def.form};
-  for (int k = 0; k < 2; ++k) {
-    item.anchors[k] = def.anchors ? (*def.anchors)[k] : toBody(pose[def.bodies[k]], def.at);
-  }
-  return append(*impl_, def, item);
+  return append(*impl_, def, BallSocket{def.bodies, bodyAnchors(*impl_, def), def.form});
 }
 
 int World::add(const AxleDef& def) {
   checkBodies(*impl_, def);
   const std::array<Vec3, 2> axes = bodyAxes(*impl_, def);
-  Axle item{def.bodies, axes[0], Mat3::Identity(), def.form};
-  const Vec3 u = anyNormalTo(axes[1]);
-  item.frameJ << u, axes[1].cross(u), axes[1];
-  return append(*impl_, def, item);
+  return append(*impl_, def, Axle{def.bodies, axes[0], frameAbout(axes[1]), def.form});
 }
 
 int World::add(const ConeLimitDef& def) {
@@ -132,6 +145,35 @@ int World::add(const TwistLimitDef& def) {
   const Quat reference = def.reference.value_or(relativeOrientation(*impl_, def.bodies));
   return append(*impl_, def,
                 TwistLimit{def.bodies, n, reference.normalized(), def.range[0], def.range[1]});
+}
+
+int World::add(const PointOnLineDef& def) {
+  checkBodies(*impl_, def);
+  const Mat3 frame = frameAbout(bodyAxis(*impl_, def.bodies[0], def.axis));
+  return append(*impl_, def, PointOnLine{def.bodies, bodyAnchors(*impl_, def), frame});
+}
+
+int World::add(const SlideLimitDef& def) {
+  checkBodies(*impl_, def);
+  require(def.range[0] <= def.range[1] && std::isfinite(def.range[1] - def.range[0]),
+          "a slide's limits must be ordered and finite");
+  const Vec3 n = bodyAxis(*impl_, def.bodies[0], def.axis);
+  return append(*impl_, def,
+                SlideLimit{def.bodies, bodyAnchors(*impl_, def), n, def.range[0], def.range[1]});
+}
+
+int World::add(const OrientationLockDef& def) {
+  checkBodies(*impl_, def);
+  if (def.orientation) checkOrientation(*def.orientation);
+  const Quat kept = def.orientation.value_or(relativeOrientation(*impl_, def.bodies));
+  return append(*impl_, def, OrientationLock{def.bodies, kept.normalized()});
+}
+
+int World::add(const PerpendicularDef& def) {
+  checkBodies(*impl_, def);
+  const Vec3 ni = bodyAxis(*impl_, def.bodies[0], def.directions[0]);
+  const Vec3 nj = bodyAxis(*impl_, def.bodies[1], def.directions[1]);
+  return append(*impl_, def, Perpendicular{def.bodies, {ni, nj}});
 }
 
 int World::add(const DistanceDef& def) {
@@ -173,6 +215,12 @@ int World::add(const PointGravityDef& def) {
   checkForce({def.strength, def.softening},
              "strength and softening must be finite and not negative");
   return append(*impl_, def, PointGravity{def.bodies, def.strength, def.softening});
+}
+
+int World::add(const ForceDef& def) {
+  checkBodies(*impl_, def);
+  require(finite(def.force), "a force must be finite");
+  return append(*impl_, def, ConstantForce{def.bodies, def.force});
 }
 
 int World::add(const DragDef& def) {

@@ -1,4 +1,5 @@
-// The table of metrics: name, unit, meaning and computation of all that an [[expect]] can ask for.
+// The table of metrics of a whole scene: name, unit, meaning and computation of what an [[expect]]
+// can ask for; those of single bodies are in body_metrics.cpp.
 // `at_most` looks at the largest value over the span and the bodies, `at_least` at the smallest.
 #include "scenes/metrics.h"
 
@@ -34,7 +35,7 @@ double kindError(const Sample& s) {
 }
 
 double jointError(const Sample& s) {
-  return largestError(s, {"ball_socket", "distance", "link", "rope_length"});
+  return largestError(s, {"ball_socket", "point_on_line", "distance", "link", "rope_length"});
 }
 
 // The sum of |c| over the links: how far off a rope or a cloth is as a whole.
@@ -106,6 +107,20 @@ double momentDrift(const Sample& s) {
   return sum.norm();
 }
 
+// How far the sum of all momenta has moved [kg m/s].
+double momentumGain(const Sample& s) {
+  return (s.now.linearMomentum - s.start.linearMomentum).norm();
+}
+
+// The sum of the squared overlaps of all contact points [m^2].
+double overlapSquares(const Sample& s) {
+  double sum = 0;
+  for (const physics::ContactReport& contact : s.simulation.world().contacts()) {
+    if (contact.gap < 0) sum += contact.gap * contact.gap;
+  }
+  return sum;
+}
+
 // The largest angle between the two axes of a constraint of that kind.
 double largestAngle(const Sample& s, const char* kind) {
   double largest = 0;
@@ -123,58 +138,6 @@ double overlap(const Sample& s) { return s.now.overlap; }
 double maxSpeed(const Sample& s) { return s.now.maxSpeed; }
 double contacts(const Sample& s) { return s.now.contacts; }
 double finite(const Sample& s) { return s.simulation.isFinite() ? 1 : 0; }
-
-double heightOf(const Sample& s, BodyId b) { return poseOf(s, b).x.y(); }
-double xOf(const Sample& s, BodyId b) { return poseOf(s, b).x.x(); }
-double zOf(const Sample& s, BodyId b) { return poseOf(s, b).x.z(); }
-double speedOf(const Sample& s, BodyId b) {
-  return s.simulation.world().bodies().velocity[b].v.norm();
-}
-double angularSpeedOf(const Sample& s, BodyId b) {
-  return s.simulation.world().bodies().velocity[b].w.norm();
-}
-double driftOf(const Sample& s, BodyId b) { return std::hypot(moved(s, b).x(), moved(s, b).z()); }
-double dropOf(const Sample& s, BodyId b) { return -moved(s, b).y(); }
-double displacementOf(const Sample& s, BodyId b) { return moved(s, b).norm(); }
-
-// The angle between the vertical and where the body's turn has taken what was vertical at the
-// start.
-double tiltOf(const Sample& s, BodyId b) {
-  const Vec3 up = poseOf(s, b).q * (s.startPoses[b].q.conjugate() * Vec3::UnitY());
-  return std::atan2(std::hypot(up.x(), up.z()), up.y()) * 180 / M_PI;
-}
-
-// The length of a vector, with the sign of its largest component.
-double signedLength(const Vec3& v) {
-  Eigen::Index largest = 0;
-  v.cwiseAbs().maxCoeff(&largest);
-  return v[largest] < 0 ? -v.norm() : v.norm();
-}
-
-// What World tells of the drive that turns this body; 0 where none does.
-double ofDrive(const Sample& s, BodyId b, Vec3 (physics::World::*report)(int) const) {
-  int drive = 0;
-  for (const physics::JointReport& joint : s.simulation.world().joints()) {
-    if (joint.kind != physics::DriveDef::kWord) continue;
-    if (joint.b == b) return signedLength((s.simulation.world().*report)(drive));
-    ++drive;
-  }
-  return 0;
-}
-double driveAngle(const Sample& s, BodyId b) { return -ofDrive(s, b, &physics::World::driveError); }
-double driveError(const Sample& s, BodyId b) { return std::abs(driveAngle(s, b)); }
-double driveTorque(const Sample& s, BodyId b) {
-  return ofDrive(s, b, &physics::World::driveTorque);
-}
-
-double countTilted(const Sample& s) {
-  return static_cast<double>(
-      std::count_if(s.bodies.begin(), s.bodies.end(), [&](BodyId b) { return tiltOf(s, b) > 45; }));
-}
-
-double fallen(const Sample& s) {
-  return s.bodies.empty() ? 0 : countTilted(s) / static_cast<double>(s.bodies.size());
-}
 
 double armError(const Sample& s) { return largestError(s, {physics::ArmDef::kWord}); }
 
@@ -197,9 +160,10 @@ double armEffort(const Sample& s) {
   return sum;
 }
 
-constexpr About kScene = About::kScene, kEach = About::kEachBody, kGroup = About::kGroup;
+constexpr About kScene = About::kScene;
 constexpr Metric kMetrics[] = {
-    {"joint_error", "m", "the largest gap of a ball_socket or error of a distance, link or rope",
+    {"joint_error", "m",
+     "the largest gap of a ball_socket or point_on_line, or error of a distance, link or rope",
      kScene, jointError, nullptr},
     {"ball_socket_error", "m", "the largest gap of a ball_socket", kScene,
      kindError<physics::BallSocketDef>, nullptr},
@@ -216,6 +180,14 @@ constexpr Metric kMetrics[] = {
      kScene, gradientError, nullptr},
     {"axle_error", "rad", "the largest angle an axle is open", kScene, kindError<physics::AxleDef>,
      nullptr},
+    {"point_on_line_error", "m", "the largest distance of a point from its line", kScene,
+     kindError<physics::PointOnLineDef>, nullptr},
+    {"slide_limit_error", "m", "the largest distance beyond a slide_limit", kScene,
+     kindError<physics::SlideLimitDef>, nullptr},
+    {"orientation_lock_error", "rad", "the largest turn past an orientation_lock", kScene,
+     kindError<physics::OrientationLockDef>, nullptr},
+    {"perpendicular_error", "rad", "the largest angle off the right angle of a perpendicular",
+     kScene, kindError<physics::PerpendicularDef>, nullptr},
     {"cone_limit_error", "rad", "the largest angle beyond a cone_limit", kScene,
      kindError<physics::ConeLimitDef>, nullptr},
     {"twist_limit_error", "rad", "the largest angle beyond a twist_limit", kScene,
@@ -225,6 +197,7 @@ constexpr Metric kMetrics[] = {
     {"energy_gain", "J", "E - E0", kScene, energyGain, nullptr},
     {"momentum_drift", "", "|P - P0| / max(|P0|, sqrt(2 M K), K the largest kinetic energy so far)",
      kScene, momentumDrift, nullptr},
+    {"momentum_gain", "kg m/s", "|P - P0|", kScene, momentumGain, nullptr},
     {"angular_momentum_drift", "", "|L - L0| / |L0|, in kg m^2/s where L0 is zero", kScene,
      angularMomentumDrift, nullptr},
     {"axle_angle", "degrees", "the largest angle between the two axes of an axle", kScene,
@@ -237,6 +210,8 @@ constexpr Metric kMetrics[] = {
      "the moment about the origin of what moved and turned since the start", kScene, momentDrift,
      nullptr},
     {"overlap", "m", "the deepest overlap of two bodies", kScene, overlap, nullptr},
+    {"overlap_squares", "m^2", "the sum of the squared overlaps of all contact points", kScene,
+     overlapSquares, nullptr},
     {"max_speed", "m/s", "the speed of the fastest body", kScene, maxSpeed, nullptr},
     {"arm_error", "m", "the largest distance of an arm's tip from its target", kScene, armError,
      nullptr},
@@ -247,63 +222,30 @@ constexpr Metric kMetrics[] = {
      kScene, armEffort, nullptr},
     {"contacts", "", "the contact points that carry an impulse", kScene, contacts, nullptr},
     {"finite", "", "1 while every number is finite, else 0", kScene, finite, nullptr},
-    {"height", "m", "y of a body's centre of mass", kEach, nullptr, heightOf},
-    {"x", "m", "x of a body's centre of mass", kEach, nullptr, xOf},
-    {"y", "m", "y of a body's centre of mass", kEach, nullptr, heightOf},
-    {"z", "m", "z of a body's centre of mass", kEach, nullptr, zOf},
-    {"speed", "m/s", "the speed of a body's centre of mass", kEach, nullptr, speedOf},
-    {"angular_speed", "rad/s", "the angular speed of a body", kEach, nullptr, angularSpeedOf},
-    {"drift", "m", "a body's horizontal distance from its start", kEach, nullptr, driftOf},
-    {"drop", "m", "how far a body is below its start", kEach, nullptr, dropOf},
-    {"displacement", "m", "a body's distance from its start", kEach, nullptr, displacementOf},
-    {"tilt", "degrees", "the angle a body's vertical has turned from the vertical since its start",
-     kEach, nullptr, tiltOf},
-    {"drive_angle", "rad", "the turn from a driven body to its target, signed as its largest part",
-     kEach, nullptr, driveAngle},
-    {"drive_error", "rad", "the angle from a driven body to its target", kEach, nullptr,
-     driveError},
-    {"drive_torque", "N m", "the torque of its drive on a body, signed as its largest part", kEach,
-     nullptr, driveTorque},
-    {"count_tilted", "", "how many of the bodies have tilted by more than 45 degrees", kGroup,
-     countTilted, nullptr},
-    {"fallen", "", "the fraction of the bodies that have tilted by more than 45 degrees", kGroup,
-     fallen, nullptr},
 };
 
 }  // namespace
 
-std::span<const Metric> metrics() { return kMetrics; }
+std::span<const Metric> metrics() {
+  static const std::vector<Metric> all = [] {
+    std::vector<Metric> both(std::begin(kMetrics), std::end(kMetrics));
+    both.insert(both.end(), bodyMetrics().begin(), bodyMetrics().end());
+    return both;
+  }();
+  return all;
+}
 
 std::vector<std::string> metricNames() {
   std::vector<std::string> names;
-  for (const Metric& metric : kMetrics) names.emplace_back(metric.name);
+  for (const Metric& metric : metrics()) names.emplace_back(metric.name);
   return names;
 }
 
 const Metric* findMetric(const std::string& name) {
-  for (const Metric& metric : kMetrics) {
+  for (const Metric& metric : metrics()) {
     if (name == metric.name) return &metric;
   }
   return nullptr;
-}
-
-bool matches(const std::string& pattern, const std::string& name) {
-  size_t p = 0, n = 0, star = std::string::npos, resume = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      resume = n;
-    } else if (p < pattern.size() && pattern[p] == name[n]) {
-      ++p;
-      ++n;
-    } else if (star != std::string::npos) {
-      p = star + 1;
-      n = ++resume;
-    } else {
-      return false;
-    }
-  }
-  return pattern.find_first_not_of('*', p) == std::string::npos;
 }
 
 }  // namespace scenes

@@ -31,7 +31,8 @@ struct Metric {
   double (*scene)(const Sample&);
   double (*body)(const Sample&, physics::BodyId);
 };
-std::span<const Metric> metrics();
+std::span<const Metric> metrics();      // all of them
+std::span<const Metric> bodyMetrics();  // those of a body or of several
 std::vector<std::string> metricNames();
 
 // The metric of that name; null: none.

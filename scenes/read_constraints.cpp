@@ -1,5 +1,7 @@
 // Every kind of constraint by its word, read through its own list of fields.
 #include "physics/make/hinge.h"
+#include "physics/make/prismatic.h"
+#include "physics/make/universal.h"
 #include "scenes/recipe.h"
 
 namespace scenes {
@@ -41,15 +43,19 @@ constexpr Word word() {
 }
 
 constexpr Word kConstraints[] = {
-    word<physics::BallSocketDef>(),  word<physics::AxleDef>(),
-    word<physics::HingeDef>(),       word<physics::ConeLimitDef>(),
-    word<physics::TwistLimitDef>(),  word<physics::DistanceDef>(),
-    word<physics::LinkDef>(),        word<physics::RopeLengthDef>(),
-    word<physics::VolumeDef>(),      word<physics::SpringDef>(),
-    word<physics::DriveDef>(),       word<physics::MotorDef>(),
-    word<physics::BendDef>(),        word<physics::HardeningSpringDef>(),
-    word<physics::DragDef>(),        word<physics::PanelDragDef>(),
-    word<physics::MotorTorqueDef>(), word<physics::PointGravityDef>(),
+    word<physics::BallSocketDef>(),    word<physics::AxleDef>(),
+    word<physics::HingeDef>(),         word<physics::ConeLimitDef>(),
+    word<physics::TwistLimitDef>(),    word<physics::DistanceDef>(),
+    word<physics::LinkDef>(),          word<physics::RopeLengthDef>(),
+    word<physics::VolumeDef>(),        word<physics::SpringDef>(),
+    word<physics::DriveDef>(),         word<physics::MotorDef>(),
+    word<physics::BendDef>(),          word<physics::HardeningSpringDef>(),
+    word<physics::DragDef>(),          word<physics::PanelDragDef>(),
+    word<physics::MotorTorqueDef>(),   word<physics::PointGravityDef>(),
+    word<physics::PrismaticDef>(),     word<physics::UniversalDef>(),
+    word<physics::PointOnLineDef>(),   word<physics::SlideLimitDef>(),
+    word<physics::PerpendicularDef>(), word<physics::OrientationLockDef>(),
+    word<physics::ForceDef>(),
 };
 
 }  // namespace

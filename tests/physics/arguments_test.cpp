@@ -89,7 +89,8 @@ void expectJointRefused(const char* what, const std::function<void(Def&)>& spoil
 template <class Def>
 class EveryDef : public ::testing::Test {};
 using Defs = ::testing::Types<BallSocketDef, AxleDef, ConeLimitDef, TwistLimitDef, DistanceDef,
-                              SpringDef, DriveDef, MotorDef>;
+                              SpringDef, DriveDef, MotorDef, PointOnLineDef, SlideLimitDef,
+                              OrientationLockDef, PerpendicularDef>;
 TYPED_TEST_SUITE(EveryDef, Defs);
 
 TYPED_TEST(EveryDef, IsRefusedBetweenABodyAndItself) {
@@ -107,6 +108,9 @@ TEST(Refuses, AxesThatAreZeroOrNotFinite) {
     expectJointRefused<ConeLimitDef>("axis", [=](ConeLimitDef& d) { d.axis = n; });
     expectJointRefused<TwistLimitDef>("axis", [=](TwistLimitDef& d) { d.axis = n; });
     expectJointRefused<MotorDef>("axis", [=](MotorDef& d) { d.axis = n; });
+    expectJointRefused<PointOnLineDef>("axis", [=](PointOnLineDef& d) { d.axis = n; });
+    expectJointRefused<SlideLimitDef>("axis", [=](SlideLimitDef& d) { d.axis = n; });
+    expectJointRefused<PerpendicularDef>("axis", [=](PerpendicularDef& d) { d.directions[1] = n; });
   }
 }
 
@@ -115,6 +119,8 @@ TEST(Refuses, SenselessLimitsAndLengths) {
   expectJointRefused<ConeLimitDef>("too wide", [](ConeLimitDef& d) { d.angle = 3.2; });
   expectJointRefused<TwistLimitDef>("order", [](TwistLimitDef& d) { d.range = {0.2, 0.1}; });
   expectJointRefused<TwistLimitDef>("too wide", [](TwistLimitDef& d) { d.range = {-4, 0.1}; });
+  expectJointRefused<SlideLimitDef>("order", [](SlideLimitDef& d) { d.range = {0.2, 0.1}; });
+  expectJointRefused<SlideLimitDef>("finite", [](SlideLimitDef& d) { d.range = {0, kInfinity}; });
   expectJointRefused<DistanceDef>("length", [](DistanceDef& d) { d.length = -1; });
   expectJointRefused<DistanceDef>("length", [](DistanceDef& d) { d.length = kNaN; });
 }
@@ -128,6 +134,11 @@ TEST(Refuses, SenselessForces) {
   expectJointRefused<DriveDef>("target", [](DriveDef& d) { d.target = Quat(0, 0, 0, 0); });
   expectJointRefused<MotorDef>("speed", [](MotorDef& d) { d.speed = kNaN; });
   expectJointRefused<MotorDef>("torque", [](MotorDef& d) { d.maxTorque = -1; });
+}
+
+TEST(Refuses, AnOrientationThatIsNone) {
+  expectJointRefused<OrientationLockDef>(
+      "orientation", [](OrientationLockDef& d) { d.orientation = Quat(0, 0, 0, 0); });
 }
 
 TEST(Refuses, AnchorsThatAreNotFinite) {

@@ -78,6 +78,13 @@ PointGravity Case<PointGravity>::make(Random& random, Bodies& bodies) {
 void Case<PointGravity>::satisfy(PointGravity& item, Bodies&) { item.strength = 0; }
 PointGravity Case<PointGravity>::swapped(PointGravity item, const Bodies&) { return item; }
 
+ConstantForce Case<ConstantForce>::make(Random& random, Bodies& bodies) {
+  moveStart(random, bodies);
+  return {{0}, 5 * axis(random)};
+}
+void Case<ConstantForce>::satisfy(ConstantForce& item, Bodies&) { item.force.setZero(); }
+ConstantForce Case<ConstantForce>::swapped(ConstantForce item, const Bodies&) { return item; }
+
 Drag Case<Drag>::make(Random& random, Bodies& bodies) {
   moveStart(random, bodies);
   return {{0}, random.uniform(0.1, 2), random.inBall(5)};

@@ -13,6 +13,7 @@
 
 #include "physics/kinds.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/slide_cases.h"
 
 namespace physics::testing {
 

@@ -6,11 +6,13 @@
 #include "physics/make/chain.h"
 #include "physics/make/cloth.h"
 #include "physics/make/hinge.h"
+#include "physics/make/prismatic.h"
 #include "physics/make/ragdoll.h"
 #include "physics/make/rope.h"
 #include "physics/make/soft_body.h"
 #include "physics/make/stack.h"
 #include "physics/make/stage.h"
+#include "physics/make/universal.h"
 #include "physics/world.h"
 #include "tests/scenes/field_changer.h"
 #include "tests/scenes/field_text.h"
@@ -27,9 +29,11 @@ using Definitions =
                    physics::DriveDef, physics::MotorDef, physics::LinkDef, physics::RopeLengthDef,
                    physics::VolumeDef, physics::BendDef, physics::HardeningSpringDef,
                    physics::DragDef, physics::PanelDragDef, physics::MotorTorqueDef,
-                   physics::PointGravityDef, physics::HingeDef, physics::StackDef,
-                   physics::PyramidDef, physics::WallDef, physics::GridDef, physics::ChainDef,
-                   physics::BridgeDef, physics::ArchDef, physics::CardHouseDef,
+                   physics::PointGravityDef, physics::ForceDef, physics::HingeDef,
+                   physics::PrismaticDef, physics::UniversalDef, physics::PointOnLineDef,
+                   physics::SlideLimitDef, physics::OrientationLockDef, physics::PerpendicularDef,
+                   physics::StackDef, physics::PyramidDef, physics::WallDef, physics::GridDef,
+                   physics::ChainDef, physics::BridgeDef, physics::ArchDef, physics::CardHouseDef,
                    physics::DominoesDef, physics::BowlDef, physics::StairsDef, physics::RagdollDef,
                    physics::RopeDef, physics::ClothDef, physics::SoftBodyDef, physics::ArmDef>;
 TYPED_TEST_SUITE(Fields, Definitions);
