@@ -100,7 +100,8 @@ PeerStart startRigid(const physics::World& world, int iterations) {
 
 PeerOffer bulletOffer() {
   const std::string setup =
-      "; ERP 0.2, gyroscopic terms, overlaps split from velocities where something bounces, "
+      "; ERP 0.2, gyroscopic terms, where something bounces no open contacts and overlaps split "
+      "from velocities, "
       "springs as explicit forces";
   const int iterations = btContactSolverInfo().m_numIterations;
   PeerOffer offer{{"Bullet", DBD_PEER_VERSION ", double precision", "libbullet-dev"}, {}};

@@ -8,6 +8,8 @@
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include <algorithm>
+
 #include "app/peers/bullet_world.h"
 #include "app/peers/tree.h"
 
@@ -113,6 +115,10 @@ class BulletTree : public BulletPeer {
     }
     for (int k = 0; k < count; ++k) setVelocity(body, tree, k);
     world_.addMultiBody(&body);
+    const bool limited = std::any_of(tree.links.begin(), tree.links.end(),
+                                     [](const TreeLink& k) { return k.joint->limits.has_value(); });
+    if (!settings_.contact && !limited) return;
+    // Where nothing touches, they are there for the limits: Bullet finds those by their colliders.
     if (!tree.isFixed) addCollider(body, base, -1);
     for (int k = 0; k < count; ++k) addCollider(body, tree.links[k].body, k);
     for (int k = 0; k < count; ++k) addLimits(body, tree.links[k], k);
@@ -164,7 +170,6 @@ class BulletTree : public BulletPeer {
   }
 
   void addCollider(btMultiBody& body, BodyId i, int link) {
-    if (!settings_.contact) return;
     auto collider = std::make_unique<btMultiBodyLinkCollider>(&body, link);
     collider->setCollisionShape(shapeOf(i));
     collider->setWorldTransform(toBullet(bodies_.pose[i]));

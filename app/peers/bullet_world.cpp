@@ -1,5 +1,6 @@
 // Bullet's shapes and rigid bodies. ERP and slop at their defaults, gyroscopic terms on, no
-// damping; overlaps are split from velocities where something bounces.
+// damping. Where something bounces, open contacts are left out and overlaps are split from
+// velocities: at the defaults a ball loses or gains most of its energy within a few bounces.
 #include "app/peers/bullet_world.h"
 
 #include <cmath>
@@ -91,7 +92,10 @@ void BulletPeer::setSurface(btCollisionObject& object, BodyId i) {
   object.setActivationState(DISABLE_DEACTIVATION);
   // Bullet multiplies the two of a pair: so that friction is their geometric mean, as ours.
   object.setFriction(std::sqrt(bodies_.friction[i].dynamicCoefficient));
-  object.setRestitution(settings_.contact ? std::sqrt(settings_.contact->restitution) : 0);
+  if (!settings_.contact || settings_.contact->restitution == 0) return;
+  object.setRestitution(std::sqrt(settings_.contact->restitution));
+  // By default a contact that is still open takes gap / h from the speed of the bounce.
+  object.setContactProcessingThreshold(0);
 }
 
 int BulletPeer::maskOf(BodyId i) const {
@@ -104,8 +108,7 @@ int BulletPeer::maskOf(BodyId i) const {
 
 void BulletPeer::setUp(btContactSolverInfo& info, int iterations) const {
   if (iterations > 0) info.m_numIterations = iterations;
-  // By default an overlap below 4 cm becomes velocity: a ball that bounces would gain a fifth of
-  // its energy in ten seconds at h = 1/240.
+  // By default an overlap below 4 cm becomes velocity, and what bounces gains energy.
   if (settings_.contact && settings_.contact->restitution > 0) {
     info.m_splitImpulsePenetrationThreshold = 0;
   }
