@@ -82,6 +82,9 @@ std::vector<std::string> effectsOf(const Value& root, const Scene& scene) {
     if (word == "gravity" || generator || constraint) effects.push_back(word);
   }
   if (scene.settings.contact) effects.emplace_back("contact");
+  if (scene.settings.contact && scene.settings.contact->restitution > 0) {
+    effects.emplace_back("restitution");
+  }
   return effects;
 }
 
