@@ -11,6 +11,10 @@ enum class Method {
   kNonlinearGaussSeidel,  // (52)
   kDirect,                // (42) for joints, Gauss-Seidel for what has bounds
   kLinearGaussSeidel,     // (51), for comparison
+  kXpbd,                  // from here on rivals, see methods/rival.h
+  kSequentialImpulses,
+  kPenalty,  // implicit steps
+  kPenaltyExplicit,
 };
 enum class Stepping {
   kPaper,   // backward Euler
@@ -39,8 +43,8 @@ struct Settings {
   double tolerance = 2e-7;  // this in a sweep [m]
   Method method = Method::kNonlinearGaussSeidel;
   Stepping stepping = Stepping::kPaper;
-  double relaxation = 1;      // xi (53)
-  double regularisation = 0;  // epsilon, alpha = epsilon * J M^-1 J^T (54)
+  double relaxation = 1;                   // xi (53)
+  double regularisation = 0;               // epsilon, alpha = epsilon * J M^-1 J^T (54)
   Regularisation regularisationForm = Regularisation::kCompliance;
   bool spinInertia = false;    // M~ of (36),(65) instead of M, where |w| h <= 0.2
   bool refreshInertia = true;  // inertia follows the turn of every iteration (4.1)

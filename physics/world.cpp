@@ -9,6 +9,7 @@
 #include "physics/effects/second_order.h"
 #include "physics/methods/direct.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
+#include "physics/methods/rival.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -56,6 +57,8 @@ void solveOnce(World::Impl& w, double h, StepReport& report) {
       return direct(w, h, report);
     case Method::kLinearGaussSeidel:
       return linearGaussSeidel(w, h, report);
+    default:
+      return;  // a rival has a substep of its own
   }
 }
 
@@ -127,6 +130,18 @@ void finish(World::Impl& w, double h, StepReport& report) {
   if (isSecondOrder(w.settings)) recordSchemes(w, report);
 }
 
+// A whole substep of a rival, from contacts found as for the other methods.
+void substepOfRival(World::Impl& w, int k, double h, StepReport& report) {
+  coast(w, h);
+  if (w.settings.contact && (k == 0 || contactsOutdated(w))) {
+    findContactsAhead(w, w.settings.dt - (k + 1) * h);
+  }
+  findSoftContacts(w);
+  rivalSubstep(w, h, report);
+  checkFinite(w, report);
+  ++report.substeps;
+}
+
 void restore(World::Impl& w) {
   w.bodies.pose = w.last.pose;
   w.bodies.velocity = w.last.velocity;
@@ -151,6 +166,10 @@ StepReport World::step() {
   drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
   for (int k = 0; k < w.settings.substeps && !report.notFinite; ++k) {
     if (isStatic) bringToRest(w.bodies);
+    if (isRival(w.settings.method)) {
+      substepOfRival(w, k, h, report);
+      continue;
+    }
     isSecondOrder(w.settings) ? displaceBySchemes(w, k, h, report) : displaceAll(w, k, h, report);
     if (report.notFinite) break;
     finish(w, h, report);

@@ -11,6 +11,8 @@
 #include "physics/methods/joint_system.h"
 #include "physics/methods/linear_gauss_seidel.h"
 #include "physics/stepping.h"
+#include "physics/methods/penalty.h"
+#include "physics/methods/sequential_impulses.h"
 #include "physics/world.h"
 
 namespace physics {
@@ -35,6 +37,8 @@ struct World::Impl {
   LinearSystem linear;      // the linear method only
   Stepper stepper;          // second-order steppings only
   std::vector<ContactPair> contactsBefore;  // as the substep found them; second order only
+  ImpulseSystem impulses;   // sequential impulses only
+  PenaltySystem penalty;    // penalty forces only
   std::vector<Pose> ahead;  // scratch: poses at the end of the step, as far as now is known
 
   struct Snapshot {  // the last good state

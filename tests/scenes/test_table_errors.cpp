@@ -53,7 +53,8 @@ TEST(SceneFile, ListsTheMethodsForAnUnknownOne) {
   EXPECT_EQ(
       errorOf("[simulation]\nmethod = \"magic\"\n"),
       "test.toml:2:10: simulation.method: expected one of 'nonlinear_gauss_seidel', 'direct', "
-      "'linear_gauss_seidel', got 'magic'");
+      "'linear_gauss_seidel', 'xpbd', 'sequential_impulses', 'penalty', 'penalty_explicit', got "
+      "'magic'");
 }
 
 TEST(SceneFile, RefusesGravityThatIsNotAVector) {

@@ -1,0 +1,102 @@
+// What the rivals share.
+#include "physics/methods/rival.h"
+
+#include <Eigen/LU>
+
+#include "physics/effects/restitution.h"
+
+namespace physics {
+namespace {
+
+// One Newton step from the old rate on I (w' - w) + h w' x I w' = 0, body frame.
+Vec3 implicitGyroscopic(const Vec3& inertia, const Vec3& omega, double dt) {
+  const Vec3 momentum = inertia.cwiseProduct(omega);
+  Mat3 jacobian = dt * (skew(omega) * inertia.asDiagonal().toDenseMatrix() - skew(momentum));
+  jacobian.diagonal() += inertia;
+  return omega - jacobian.inverse() * (dt * omega.cross(momentum));
+}
+
+void turnFaster(Bodies& bodies, int i, const Vec3& torque, double dt, Gyroscopic form) {
+  const Mat3 rotation = bodies.pose[i].q.toRotationMatrix();
+  const Vec3 &inertia = bodies.inertia[i], &inverse = bodies.inverseInertia[i];
+  Vec3 omega = rotation.transpose() * bodies.velocity[i].w;
+  const Vec3 gyroscopic = omega.cross(inertia.cwiseProduct(omega));
+  const Vec3 gain = dt * inverse.cwiseProduct(rotation.transpose() * torque);
+  const bool isRegular = inertia.minCoeff() > 0;
+  if (form == Gyroscopic::kExplicit || !isRegular) {
+    omega += gain - dt * inverse.cwiseProduct(gyroscopic);
+  } else {
+    omega = implicitGyroscopic(inertia, omega + gain, dt);
+  }
+  bodies.velocity[i].w = rotation * omega;
+}
+
+}  // namespace
+
+bool isRival(Method method) {
+  return method == Method::kXpbd || method == Method::kSequentialImpulses ||
+         method == Method::kPenalty || method == Method::kPenaltyExplicit;
+}
+
+void coast(World::Impl& world, double dt) {
+  Bodies& bodies = world.bodies;
+  bodies.start = bodies.pose;
+  const Vec3 fall =
+      world.settings.gravity ? Vec3(dt * dt * *world.settings.gravity) : Vec3::Zero().eval();
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies.motion[i] == Motion::kStatic) continue;
+    displace(bodies.pose[i], dt * bodies.velocity[i].v, dt * bodies.velocity[i].w);
+    if (bodies.motion[i] == Motion::kDynamic) bodies.pose[i].x += fall;
+  }
+}
+
+void rivalSubstep(World::Impl& world, double dt, StepReport& report) {
+  world.bodies.pose = world.bodies.start;
+  refreshInertia(world.bodies);
+  for (ContactPair& pair : world.contacts.pairs) measureStart(pair, world.bodies);
+  switch (world.settings.method) {
+    case Method::kXpbd:
+      return xpbd(world, dt, report);
+    case Method::kSequentialImpulses:
+      return sequentialImpulses(world, dt, report);
+    case Method::kPenalty:
+      return penalty(world, dt, report);
+    case Method::kPenaltyExplicit:
+      return penaltyExplicit(world, dt, report);
+    default:
+      return;
+  }
+}
+
+void accelerate(World::Impl& world, double dt, Gyroscopic form) {
+  Bodies& bodies = world.bodies;
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies.motion[i] != Motion::kDynamic) continue;
+    const Load& load = world.loads[i];
+    if (world.settings.gravity) bodies.velocity[i].v += dt * *world.settings.gravity;
+    bodies.velocity[i].v += dt * bodies.inverse[i].m * load.force;
+    if (!bodies.inverseInertia[i].isZero(0)) turnFaster(bodies, i, load.torque, dt, form);
+  }
+}
+
+void advance(Bodies& bodies, double dt) {
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies.motion[i] == Motion::kStatic) continue;
+    bodies.pose[i].x = bodies.start[i].x + dt * bodies.velocity[i].v;
+    if (bodies.velocity[i].w.isZero(0)) continue;
+    bodies.pose[i].q = (exponential(dt * bodies.velocity[i].w) * bodies.start[i].q).normalized();
+  }
+}
+
+void bounce(World::Impl& world, double dt) {
+  const Settings& settings = world.settings;
+  if (!settings.contact || settings.contact->restitution == 0) return;
+  const double threshold = settings.gravity ? 2 * dt * settings.gravity->norm() : 0;
+  restitute(world.contacts, world.bodies, settings.contact->restitution, threshold);
+}
+
+void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body) {
+  report.notFinite = {report.substeps, body, std::string(kind) + " " + std::to_string(index)};
+}
+
+}  // namespace physics
