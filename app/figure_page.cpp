@@ -117,6 +117,31 @@ std::string showScenes(const fs::path& folder) {
   return runs.empty() ? "" : "<h1 id=\"scenes\">Scenes of the library</h1>\n" + runs;
 }
 
+// The study of DIR/study, as app/run.sh makes it: a link, and its first diagrams.
+std::string showStudy(const fs::path& folder) {
+  if (!fs::exists(folder / "study" / "index.html")) return "";
+  std::vector<std::string> diagrams;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "study")) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() == ".svg" && !stem.ends_with("_h")) diagrams.push_back(stem);
+  }
+  std::sort(diagrams.begin(), diagrams.end());
+  constexpr std::size_t kMost = 4;
+  diagrams.resize(std::min(diagrams.size(), kMost));
+  std::string html =
+      "<section id=\"study\"><h2><a href=\"study/index.html\">What accuracy costs in "
+      "time</a></h2>\n"
+      "<p>Errors against wall times of every method and of other engines, measured on this machine."
+      "</p>\n<div class=\"shots\">\n";
+  for (const std::string& name : diagrams) {
+    html += fmt::format(
+        "<a href=\"study/index.html#{0}\"><img class=\"poster\" src=\"study/{0}.svg\" "
+        "alt=\"{0}\"></a>\n",
+        escapeHtml(name));
+  }
+  return html + "</div></section>\n";
+}
+
 }  // namespace
 
 fs::path writeFigurePage(const fs::path& folder) {
@@ -127,7 +152,7 @@ fs::path writeFigurePage(const fs::path& folder) {
       "measured, and whether that holds.</p>\n" +
       contents(records);
   for (const FigureRecord& record : records) body += showFigure(record);
-  body += showScenes(folder);
+  body += showStudy(folder) + showScenes(folder);
   const fs::path page = folder / "index.html";
   writeFile(page, htmlPage("Displacement based dynamics: the figures", body));
   return page;

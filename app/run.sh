@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is needed, builds dbd, renders the shown scenes into out/scenes, makes the paper's
-# figures in out/, and ends with the path of out/index.html.
+# Installs what is needed, builds dbd, renders the shown scenes into out/scenes, measures what
+# accuracy costs into out/study, makes the paper's figures in out/, and ends with the path of
+# out/index.html.
 # Options go to every `dbd render` and to `dbd figures`: ./app/run.sh --quality draft
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -24,6 +25,8 @@ for i in "${!scenes[@]}"; do
   say "Scene $((i + 1)) of ${#scenes[@]}: ${scenes[$i]}"
   run "${scenes[$i]}" render "${scenes[$i]}" --video -o "$root/out/scenes/${scenes[$i]}" "$@"
 done
+say "What accuracy costs in time: the quick study"
+run "accuracy study" study accuracy --quick -o "$root/out/study"
 say "Figures"
 run figures figures -o "$root/out" "$@"
 if [ ${#failed[@]} -gt 0 ]; then

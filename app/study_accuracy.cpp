@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "app/build_info.h"
 #include "app/output_file.h"
@@ -19,20 +17,9 @@ namespace fs = std::filesystem;
 using scenes::StudyCase;
 using Status = StudyPoint::Status;
 
-StudyEffort effortOf(bool quick) {
-  if (quick) return {0.06, 0.8, 7};
-  return {};
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  return fmt::format("{}", fmt::join(words, "\n"));
-}
-
-std::vector<StudyPoint> readPoints(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return parsePoints(text.str());
+const fs::path& madeFolder(const fs::path& folder) {
+  makeFolder(folder);
+  return folder;
 }
 
 // How long the run of `key` will take [s], from those of the same method and as many iterations
@@ -50,22 +37,20 @@ double expectedSeconds(const StudyResults& results, const StudyKey& key) {
 }  // namespace
 
 AccuracyStudy::Inputs AccuracyStudy::inputsOf(const StudyCase& study) {
-  static const std::string program = programHash();
-  Inputs inputs;
-  inputs.reference = hashText(program + study.text + scenes::studyScene(study, {}).text +
-                              joined(study.set) + study.reference.text);
+  Inputs inputs{studyInputs(study), {}};
   for (const scenes::StudyMethod& method : study.methods) {
-    inputs.methods.push_back(hashText(inputs.reference + joined(method.set) + method.peer));
+    inputs.methods.push_back(hashText(inputs.reference + joinedLines(method.set) + method.peer));
   }
   return inputs;
 }
 
 AccuracyStudy::AccuracyStudy(std::vector<StudyCase> cases, const fs::path& folder, bool quick,
                              bool keep, ProgressMode progress)
-    : cases_(std::move(cases)), folder_(folder), quick_(quick), effort_(effortOf(quick)) {
-  makeFolder(folder_);
-  if (keep) kept_ = readPoints(folder_ / "points.csv");
-  std::erase_if(kept_, [](const StudyPoint& point) { return point.status == Status::kSkipped; });
+    : cases_(std::move(cases)),
+      folder_(madeFolder(folder)),
+      quick_(quick),
+      effort_(effortOf(quick)),
+      store_(folder_ / "points.csv", keep) {
   int total = 0;
   for (const StudyCase& study : cases_) {
     plans_.push_back(planPoints(study, quick_));
@@ -73,34 +58,14 @@ AccuracyStudy::AccuracyStudy(std::vector<StudyCase> cases, const fs::path& folde
     inputs_.push_back(inputsOf(study));
     total += static_cast<int>(plans_.back().size());
   }
-  dropStale();
-  file_.emplace(folder_ / "points.csv", kept_);
   progress_.emplace(progress, "accuracy", "measuring", total);
-}
-
-// Points of these cases that were measured from something else. Other cases' stay.
-void AccuracyStudy::dropStale() {
-  std::erase_if(kept_, [&](const StudyPoint& point) {
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
-      if (cases_[i].name != point.key.study) continue;
-      const auto& hashes = inputs_[i].methods;
-      return std::find(hashes.begin(), hashes.end(), point.inputs) == hashes.end();
-    }
-    return false;
-  });
-}
-
-const StudyPoint* AccuracyStudy::known(const StudyKey& key) const {
-  const auto found = std::find_if(kept_.begin(), kept_.end(),
-                                  [&](const StudyPoint& point) { return point.key == key; });
-  return found == kept_.end() ? nullptr : &*found;
 }
 
 std::optional<StudyPoint> AccuracyStudy::pointFor(const PlannedPoint& planned,
                                                   StudyResults& results,
                                                   const scenes::StudyTrace& truth,
                                                   const std::string& inputs) {
-  if (const StudyPoint* point = known(planned.key)) {
+  if (const StudyPoint* point = store_.find(planned.key, inputs)) {
     ++reused_;
     return *point;
   }
@@ -119,7 +84,7 @@ std::optional<StudyPoint> AccuracyStudy::pointFor(const PlannedPoint& planned,
   }
   if (!point) return std::nullopt;
   point->inputs = inputs;
-  file_->append(*point);
+  store_.append(*point);
   return point;
 }
 
@@ -167,13 +132,13 @@ void AccuracyStudy::order() {
                        [&](const StudyCase& study) { return study.name == point.key.study; });
   };
   std::vector<StudyPoint> points;
-  for (const StudyPoint& point : kept_) {
+  for (const StudyPoint& point : store_.earlier()) {
     if (!isOurs(point)) points.push_back(point);
   }
   for (const StudyResults& results : results_) {
     points.insert(points.end(), results.points.begin(), results.points.end());
   }
-  file_.emplace(folder_ / "points.csv", points);
+  store_.rewrite(points);
 }
 
 }  // namespace app

@@ -36,8 +36,6 @@ class AccuracyStudy {
     std::vector<std::string> methods;  // of the case
   };
   static Inputs inputsOf(const scenes::StudyCase& study);
-  void dropStale();
-  const StudyPoint* known(const StudyKey& key) const;
   std::optional<StudyPoint> pointFor(const PlannedPoint& planned, StudyResults& results,
                                      const scenes::StudyTrace& truth, const std::string& inputs);
   StudyEnds measurePoints(std::size_t index, const scenes::StudyTrace& truth);
@@ -47,11 +45,10 @@ class AccuracyStudy {
   std::filesystem::path folder_;
   bool quick_;
   StudyEffort effort_;
-  std::vector<StudyPoint> kept_;                  // measured earlier, from the same inputs
+  PointStore store_;
   std::vector<Inputs> inputs_;                    // per case
   std::vector<std::vector<PlannedPoint>> plans_;  // per case
   std::vector<StudyResults> results_;
-  std::optional<PointFile> file_;
   std::optional<Progress> progress_;
   int reused_ = 0;
 };

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <span>
+#include <sstream>
 
 #include "app/exit_code.h"
 #include "app/output_file.h"
@@ -163,20 +165,37 @@ std::vector<StudyPoint> parsePoints(const std::string& text) {
   return points;
 }
 
-PointFile::PointFile(std::filesystem::path path, const std::vector<StudyPoint>& points)
-    : path_(std::move(path)) {
-  std::string text = pointHeads();
-  for (const StudyPoint& point : points) text += pointRow(point);
-  writeFile(path_, text);
+PointStore::PointStore(std::filesystem::path path, bool keep) : path_(std::move(path)) {
+  if (keep) {
+    std::ifstream in(path_, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    earlier_ = parsePoints(text.str());
+  }
+  rewrite(earlier_);
 }
 
-void PointFile::append(const StudyPoint& point) {
+const StudyPoint* PointStore::find(const StudyKey& key, const std::string& inputs) const {
+  for (const StudyPoint& point : earlier_) {
+    const bool isMeasured = point.status != StudyPoint::Status::kSkipped;
+    if (isMeasured && point.key == key && point.inputs == inputs) return &point;
+  }
+  return nullptr;
+}
+
+void PointStore::append(const StudyPoint& point) {
   const std::string row = pointRow(point);
   std::FILE* file = std::fopen(path_.c_str(), "ab");
   const bool written =
       file != nullptr && std::fwrite(row.data(), 1, row.size(), file) == row.size();
   const bool closed = file != nullptr && std::fclose(file) == 0;
   if (!written || !closed) throw EnvironmentError("cannot write to " + path_.string());
+}
+
+void PointStore::rewrite(const std::vector<StudyPoint>& points) {
+  std::string text = pointHeads();
+  for (const StudyPoint& point : points) text += pointRow(point);
+  writeFile(path_, text);
 }
 
 }  // namespace app

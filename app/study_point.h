@@ -57,15 +57,21 @@ std::string pointRow(const StudyPoint& point);
 // Rows that are torn or not understood are left out.
 std::vector<StudyPoint> parsePoints(const std::string& text);
 
-// Appends whole rows to the file, and each at once.
-class PointFile {
+// The points of an output folder: what was measured earlier, and each new one as it comes.
+class PointStore {
  public:
-  // Begins the file with `points`, whatever was in it.
-  PointFile(std::filesystem::path path, const std::vector<StudyPoint>& points);
-  void append(const StudyPoint& point);
+  // `keep`: what the file holds stays known.
+  PointStore(std::filesystem::path path, bool keep);
+
+  // The point as it was measured from the same inputs; null: it was not, or was skipped.
+  const StudyPoint* find(const StudyKey& key, const std::string& inputs) const;
+  void append(const StudyPoint& point);  // to the file, at once
+  void rewrite(const std::vector<StudyPoint>& points);
+  const std::vector<StudyPoint>& earlier() const { return earlier_; }
 
  private:
   std::filesystem::path path_;
+  std::vector<StudyPoint> earlier_;
 };
 
 }  // namespace app

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/peers/peer.h"
+#include "app/study_effort.h"
 #include "app/study_point.h"
 
 namespace app {
@@ -46,12 +47,6 @@ class StudyRun {
   StudyCounts counts_;
   std::string problem_;
   double wall_ = 0, processor_ = 0;
-};
-
-struct StudyEffort {
-  double repeat = 0.4;  // s of wall time that repeats of a short run may take together
-  double longest = 60;  // s that a point may be expected to take
-  int mostRepeats = 15;
 };
 
 // Measures a point against the truth. None: interrupted. Never throws for what the point does.

@@ -19,10 +19,11 @@ const std::map<std::string, std::string> kShort = {
     {"check", " --set duration=0.02 --progress none"},
     {"golden", " pendulum --progress none"},
     {"compare", ""},
+    {"study", " --quick --progress none"},
 };
 
 struct Blocks {
-  std::vector<std::string> commands, scenes, figures;
+  std::vector<std::string> commands, scenes, figures, studies;
 };
 
 Blocks readmeBlocks() {
@@ -37,7 +38,8 @@ Blocks readmeBlocks() {
       continue;
     }
     if (language == "toml") {
-      (text.find("[[panel]]") == std::string::npos ? blocks.scenes : blocks.figures)
+      const auto has = [&](const char* word) { return text.find(word) != std::string::npos; };
+      (has("[[panel]]") ? blocks.figures : has("[sweep]") ? blocks.studies : blocks.scenes)
           .push_back(text);
     }
     language = language.empty() ? line.substr(3) : "";
@@ -88,6 +90,17 @@ TEST_F(Readme, FigureIsMadeAndHolds) {
     const Outcome outcome = run("figures my.toml --quality draft --width 400 --progress none");
     EXPECT_EQ(outcome.code, 0) << outcome.output << outcome.errors;
     EXPECT_TRUE(fs::exists(folder / "out" / "my.png"));
+  }
+}
+
+TEST_F(Readme, StudyIsMeasured) {
+  const std::vector<std::string> studies = readmeBlocks().studies;
+  ASSERT_FALSE(studies.empty());
+  for (const std::string& study : studies) {
+    writeText(folder / "my_case.toml", study);
+    const Outcome outcome = run("study accuracy my_case.toml --quick --progress none");
+    EXPECT_EQ(outcome.code, 0) << outcome.output << outcome.errors;
+    EXPECT_TRUE(fs::exists(folder / "out" / "study_accuracy" / "index.html"));
   }
 }
 

@@ -1,0 +1,11 @@
+// The studies, one command each below `dbd study`.
+#pragma once
+
+#include "app/options.h"
+
+namespace app {
+
+void addAccuracyStudy(CLI::App& study, Action& action);
+void addOptionStudy(CLI::App& study, Action& action);
+
+}  // namespace app

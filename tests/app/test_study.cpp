@@ -1,0 +1,142 @@
+// dbd study accuracy as a user meets it: a tiny case from its file to its page.
+#include <csignal>
+
+#include "program.h"
+
+namespace tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A body falls. Backward Euler is g h t / 2 too low: first order, exactly.
+constexpr const char* kFall = R"(title = "A body falls"
+duration = 1
+[gravity]
+acceleration = [0, -10, 0]
+[[body]]
+name = "stone"
+shape = { sphere = { radius = 0.1 } }
+mass = 1
+)";
+constexpr const char* kCase = R"(title = "A stone falls"
+about = "Free fall against its closed form."
+scene = "./fall.toml"
+fps = 10
+[[quantity]]
+metric = "y"
+body = "stone"
+law = [0, 0, -5]
+[sweep]
+methods = ["paper"]
+substeps = [2, 4, 8, 16]
+)";
+
+class Study : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    writeText(folder / "fall.toml", kFall);
+    writeText(folder / "stone.toml", kCase);
+  }
+  Outcome study(const std::string& arguments, const std::string& prefix = "") const {
+    return run("study accuracy stone.toml -o s --progress none " + arguments, prefix);
+  }
+  std::string points() const { return readBytes(folder / "s" / "points.csv"); }
+
+  // What does not depend on the clock: the columns before "wall", of every row.
+  std::vector<std::string> measured() const {
+    std::vector<std::string> result;
+    for (const std::string& row : lines(points())) {
+      const std::vector<std::string> all = cells(row);
+      std::string kept;
+      for (std::size_t i = 0; i < all.size() && i < 20; ++i) kept += all[i] + ",";
+      result.push_back(kept);
+    }
+    return result;
+  }
+};
+
+TEST_F(Study, FallingShowsTheFirstOrderOfThePapersSteps) {
+  const Outcome outcome = study("");
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("order 1.00 over 4 points"), std::string::npos) << outcome.output;
+  const std::vector<std::string> rows = lines(points());
+  ASSERT_EQ(rows.size(), 5u);
+  // 10 m/s^2 * 1/20 s * 1 s / 2
+  EXPECT_NEAR(std::stod(cells(rows[1]).at(7)), 0.25, 1e-9);
+  for (const char* file : {"index.html", "stone.svg", "stone.png", "stone_h.svg", "stone_h.png"}) {
+    EXPECT_GT(readBytes(folder / "s" / file).size(), 1000u) << file;
+  }
+}
+
+TEST_F(Study, AnInterruptedStudyGoesOnToTheSameTable) {
+  ASSERT_EQ(study("").code, 0);
+  const std::string whole = points();
+  const std::vector<std::string> expected = measured();
+  const std::vector<std::string> rows = lines(whole);
+  // As it is found when the program was killed while it wrote the third row.
+  writeText(folder / "s" / "points.csv",
+            rows[0] + "\n" + rows[1] + "\n" + rows[2] + "\n" + rows[3].substr(0, 25));
+  ASSERT_EQ(study("").code, 0);
+  EXPECT_EQ(measured(), expected);
+  EXPECT_EQ(lines(points())[2], rows[2]);  // not measured again: its times are the same
+}
+
+TEST_F(Study, CtrlCEndsItWith130) {
+  writeText(folder / "stone.toml", std::string(kCase) + "steps = [1, 100, 1000, 100000]\n");
+  EXPECT_EQ(runAndSignal("study accuracy stone.toml -o s --progress none",
+                         folder / "s" / "points.csv", SIGINT),
+            130);
+  EXPECT_FALSE(points().empty());
+}
+
+TEST_F(Study, WhatChangedIsMeasuredAgain) {
+  ASSERT_EQ(study("").code, 0);
+  ASSERT_EQ(study("--set gravity.acceleration=[0,-20,0]").code, 0);
+  // Half of 20 - 10 m/s^2, and the first-order error of 20 m/s^2.
+  EXPECT_NEAR(std::stod(cells(lines(points())[1]).at(7)), 5.5, 1e-9);
+}
+
+TEST_F(Study, APointThatFailsIsShownAndDoesNotStopTheOthers) {
+  writeText(folder / "stone.toml", std::string("scale = 1e-4\n") + kCase +
+                                       "[sweep.linear]\nset = [\"simulation.relaxation=7\"]\n");
+  std::string text = readBytes(folder / "stone.toml");
+  text.replace(text.find("[\"paper\"]"), 9, "[\"linear\", \"paper\"]");
+  writeText(folder / "stone.toml", text);
+  const Outcome outcome = study("");
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  const std::vector<std::string> rows = measured();
+  ASSERT_EQ(rows.size(), 6u);  // what a method cannot do is asked once
+  EXPECT_NE(rows[1].find("refused"), std::string::npos);
+  EXPECT_NE(rows[2].find("exploded"), std::string::npos);  // 0.25 m are 2500 times the scale
+  EXPECT_NE(rows[5].find(",ok,"), std::string::npos);
+  EXPECT_NE(outcome.output.find("refused: --set simulation.relaxation=7"), std::string::npos);
+}
+
+TEST_F(Study, WithoutGnuplotTheTablesAreMadeAndItSaysWhatToInstall) {
+  const Outcome outcome = study("", "PATH=/nonexistent");
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("apt-get install -y gnuplot-nox"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "s" / "index.html"));
+  EXPECT_FALSE(fs::exists(folder / "s" / "stone.svg"));
+}
+
+TEST_F(Study, AMistakeInACaseIsToldAtItsPlace) {
+  writeText(folder / "stone.toml", std::string(kCase) + "substep = [1]\n");
+  const Outcome outcome = study("");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.errors,
+            "dbd: stone.toml:12:1: sweep: unknown key 'substep'; did you mean 'substeps'?\n");
+  EXPECT_EQ(study("--methods papr").code, 2);
+  EXPECT_EQ(run("study accuracy pendulun").code, 2);
+}
+
+TEST_F(Study, ListNamesCasesAndMeasuresNothing) {
+  const Outcome outcome = study("--list");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.output.find("A stone falls"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "s"));
+}
+
+}  // namespace
+}  // namespace tests

@@ -1,0 +1,91 @@
+// Orders and fronts of points made by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/study_fit.h"
+#include "app/study_point.h"
+
+namespace app {
+namespace {
+
+std::vector<StepError> errorsOf(double order, double factor, int count) {
+  std::vector<StepError> points;
+  for (int i = 0; i < count; ++i) {
+    const double h = std::pow(0.5, i);
+    points.push_back({h, factor * std::pow(h, order)});
+  }
+  return points;
+}
+
+TEST(FitOrder, FindsTheOrderOfAPowerExactly) {
+  for (const double order : {1.0, 2.0, 4.0}) {
+    const auto fit = fitOrder(errorsOf(order, 0.1, 6), 0, 1);
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->order, order, 1e-12);
+    EXPECT_NEAR(fit->deviation, 0, 1e-7);
+    EXPECT_EQ(fit->points, 6);
+  }
+}
+
+TEST(FitOrder, LeavesOutWhatDoesNotConvergeYetAndTheFloor) {
+  std::vector<StepError> points = errorsOf(2, 0.1, 6);
+  points.push_back({2, 0.05});     // coarser, and better by luck
+  points.push_back({1e-3, 1e-4});  // round-off: finer, and no better
+  points.push_back({1e-4, 1.1e-4});
+  const auto fit = fitOrder(points, 0, 1);
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(fit->points, 6);
+  EXPECT_NEAR(fit->order, 2, 1e-12);
+}
+
+TEST(FitOrder, KeepsToErrorsBetweenFloorAndCeiling) {
+  const auto fit = fitOrder(errorsOf(1, 1, 8), 0.03, 0.3);  // 1/4, 1/8, 1/16, 1/32
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(fit->points, 4);
+  EXPECT_DOUBLE_EQ(fit->coarsest, 0.25);
+}
+
+TEST(FitOrder, SaysNothingOfTwoPointsOrOfNone) {
+  EXPECT_FALSE(fitOrder(errorsOf(2, 1, 2), 0, 10));
+  EXPECT_FALSE(fitOrder({}, 0, 1));
+  EXPECT_FALSE(fitOrder({{1, 0}, {0.5, 0}, {0.25, 0}, {0.125, 0}}, 0, 1));  // exact
+  EXPECT_FALSE(fitOrder({{1, NAN}, {0.5, NAN}, {0.25, INFINITY}}, 0, 1));
+}
+
+StudyPoint pointOf(double wall, double error, StudyPoint::Status status = StudyPoint::Status::kOk) {
+  StudyPoint point;
+  point.wall = wall;
+  point.errors.error = error;
+  point.status = status;
+  return point;
+}
+
+TEST(Front, KeepsWhatNoOtherPointBeats) {
+  const StudyPoint cheap = pointOf(1, 1), good = pointOf(3, 0.1), beaten = pointOf(4, 0.2),
+                   exploded = pointOf(0.5, 0.01, StudyPoint::Status::kExploded);
+  const std::vector<const StudyPoint*> points{&beaten, &good, &exploded, &cheap};
+  EXPECT_EQ(front(points), (std::vector<const StudyPoint*>{&cheap, &good}));
+  EXPECT_EQ(cheapest(points, 0.2), &good);
+  EXPECT_EQ(cheapest(points, 0.05), nullptr);
+}
+
+TEST(PointFile, ARowComesBackAsItWas) {
+  StudyPoint point = pointOf(1.25e-3, 3.5e-7, StudyPoint::Status::kExploded);
+  point.key = {"pendulum", "bdf2", 2, 16, 4};
+  point.message = "error 12 m, at the end\nof it";
+  point.errors.last = INFINITY;
+  const std::string row = pointRow(point);
+  const std::vector<StudyPoint> back = parsePoints(pointHeads() + row + row.substr(0, 20));
+  ASSERT_EQ(back.size(), 1u);  // the torn row is left out
+  EXPECT_EQ(back[0].key, point.key);
+  EXPECT_EQ(pointRow(back[0]), row);
+}
+
+TEST(PointFile, RowsOfAnotherFormatAreLeftOut) {
+  EXPECT_TRUE(parsePoints("").empty());
+  EXPECT_TRUE(parsePoints("case,method\npendulum,bdf2\n").empty());
+}
+
+}  // namespace
+}  // namespace app
