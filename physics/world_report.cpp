@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "physics/effects/second_order.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -64,6 +65,7 @@ int World::bodyCount() const { return impl_->bodies.size(); }
 void World::setVelocity(BodyId body, const Velocity& velocity) {
   require(body > 0 && body < bodyCount(), "no such body");
   impl_->bodies.velocity[body] = velocity;
+  forgetPast(impl_->bodies.second, body);
 }
 
 void World::applyForce(BodyId body, const Vec3& force, const Vec3& torque) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "physics/constraint_item.h"
+#include "physics/effects/second_order.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -49,6 +50,7 @@ bool World::setState(std::span<const Pose> poses, std::span<const Velocity> velo
     b.correction[i] = {};
     b.shift[i].setZero();
     b.freeTurn[i].setZero();
+    forgetPast(b.second, i);
   }
   b.start = b.pose;
   refreshInertia(b);

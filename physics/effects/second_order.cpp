@@ -207,6 +207,10 @@ void remember(Bodies& bodies, const std::vector<bool>& smooth) {
   }
 }
 
+void forgetPast(SecondOrder& s, BodyId body) {
+  if (!s.empty()) s.history[body].smooth = false;
+}
+
 void rewind(Bodies& bodies) {
   bodies.pose = bodies.second.origin;
   bodies.velocity = bodies.second.velocity;

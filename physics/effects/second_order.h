@@ -39,6 +39,9 @@ void finishSecondOrder(Bodies& bodies, std::span<const Load> loads,
 // The past of the next substep. `smooth`: by body, no velocity jumped.
 void remember(Bodies& bodies, const std::vector<bool>& smooth);
 
+// The body was moved from outside: it has no past.
+void forgetPast(SecondOrder& second, BodyId body);
+
 // Back to X^t, v^t, to make the substep anew.
 void rewind(Bodies& bodies);
 

@@ -91,8 +91,8 @@ void advance(Bodies& bodies, double dt) {
 void bounce(World::Impl& world, double dt) {
   const Settings& settings = world.settings;
   if (!settings.contact || settings.contact->restitution == 0) return;
-  const double threshold = settings.gravity ? 2 * dt * settings.gravity->norm() : 0;
-  restitute(world.contacts, world.bodies, settings.contact->restitution, threshold);
+  restitute(world.contacts, world.bodies, settings.contact->restitution,
+            {settings.gravity, world.loads, dt});
 }
 
 void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body) {
