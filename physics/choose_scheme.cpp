@@ -140,13 +140,22 @@ void addStiffness(const C& item, const Multipliers<C>& lambda, const Evaluated<C
   }
 }
 
+// How stiff the motion is matters only where some body steps symmetrically, or is to.
+bool asksForStiffness(const World::Impl& w) {
+  const std::vector<Scheme>& scheme = w.bodies.second.scheme;
+  return w.settings.stepping == Stepping::kSymmetric ||
+         std::any_of(scheme.begin(), scheme.end(), [](Scheme s) { return s == Scheme::kSymmetric; });
+}
+
 // What the solve found: who is held by limits, whose velocities jump at one, and who is too stiff.
 void inspectKinds(World::Impl& w, std::vector<double>& ratio) {
   Stepper& stepper = w.stepper;
+  const bool asks = asksForStiffness(w);
   forEachKind(w.kinds, [&](auto& kind) {
     using C = typename std::decay_t<decltype(kind)>::Item;
     for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
       const C& item = kind.set.items[k];
+      if (!asks && (Force<C> || isEquality(item))) continue;
       const Multipliers<C>& lambda = kind.set.lambda[k];
       Scratch<C> local;
       Scratch<C>& s = C::kBodies == kMany ? kind.set.scratch : local;
@@ -156,7 +165,7 @@ void inspectKinds(World::Impl& w, std::vector<double>& ratio) {
         if (isHeld) stepper.bounded[body] = true;
         if (isHeld && !lambda.loaded) stepper.smooth[body] = false;
       }
-      if (s.row.active) addStiffness(item, lambda, s.row, w, ratio);
+      if (asks && s.row.active) addStiffness(item, lambda, s.row, w, ratio);
     }
   });
 }
@@ -246,7 +255,20 @@ bool lowerSchemes(World::Impl& w, double h) {
   return w.bodies.second.scheme != tried;
 }
 
+// Bodies that a bounce has parted are free again.
+void freeBounced(World::Impl& w) {
+  if (!w.settings.contact || w.settings.contact->restitution == 0) return;
+  Stepper& stepper = w.stepper;
+  const double speed = jumpSpeed(w, w.substepLength());
+  for (const ContactPair& pair : w.contacts.pairs) {
+    if (!jumps(pair, speed)) continue;
+    stepper.bounded[stepper.island[pair.a]] = stepper.bounded[stepper.island[pair.b]] = false;
+  }
+  shareWithinIslands(w, stepper.bounded, false);
+}
+
 void recordSchemes(World::Impl& w, StepReport& report) {
+  freeBounced(w);
   const bool wantsBdf2 = w.settings.stepping == Stepping::kBdf2;
   for (int i = 0; i < w.bodies.size(); ++i) {
     if (w.bodies.motion[i] != Motion::kDynamic) continue;

@@ -64,7 +64,7 @@ struct Simulation::Impl {
   Scene scene;
   Built built;
   int frame = 0;
-  int iterations = 0;
+  int iterations = 0, restarts = 0, fallbacks = 0;
   bool finite = true;
 
   explicit Impl(const Scene& s) : scene(s), built(s.settings) {
@@ -92,6 +92,8 @@ physics::StepReport Simulation::advance() {
   }
   physics::StepReport report = impl_->built.world.step();
   impl_->iterations = report.iterations;
+  impl_->restarts = report.restarts;
+  impl_->fallbacks = report.fallbacks;
   impl_->finite = !report.notFinite;
   if (impl_->finite) ++impl_->frame;
   return report;
@@ -99,7 +101,7 @@ physics::StepReport Simulation::advance() {
 
 bool Simulation::place(std::span<const physics::Pose> poses,
                        std::span<const physics::Velocity> velocities) {
-  impl_->iterations = 0;
+  impl_->iterations = impl_->restarts = impl_->fallbacks = 0;
   impl_->finite = impl_->built.world.setState(poses, velocities);
   if (impl_->finite) ++impl_->frame;
   return impl_->finite;
@@ -131,6 +133,8 @@ FrameMetrics Simulation::metrics() const {
   }
   metrics.contacts = world().contactCount();
   metrics.iterations = impl_->iterations;
+  metrics.restarts = impl_->restarts;
+  metrics.fallbacks = impl_->fallbacks;
   return metrics;
 }
 

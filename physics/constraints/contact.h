@@ -30,6 +30,7 @@ struct ContactPointState {
   double normalOnce = 0;              // overlap; these move bodies without speeding them
   double normalBefore = 0;            // normalTotal a substep earlier
   double gapAtStart = 0;              // c at the start of the substep [m]
+  double gapAtAnchors = 0;            // c where the anchors were taken: at Bodies::start [m]
   double approach = 0;  // normal velocity at the start of the substep [m/s], negative: closing
   Vec3 normal = Vec3::UnitY();  // world, of this substep
   Vec3 extra = Vec3::Zero();    // impulse that push() applies, times h^2

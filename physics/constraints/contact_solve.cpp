@@ -54,7 +54,7 @@ bool evaluateGaps(const ContactPair& pair, const Bodies& bodies, Visit& visit) {
     visit.armA[k] = visit.rotationA * p.shape.coreA - p.shape.radiusA * visit.n;
     visit.armB[k] = visit.armA[k] + between;
     const Vec3 matter = visit.rotationB * (pair.radial ? p.shape.coreB : p.anchorB);
-    const double offset = pair.radial ? -p.shape.radiusB : p.gapAtStart;
+    const double offset = pair.radial ? -p.shape.radiusB : p.gapAtAnchors;
     visit.gap[k] = (visit.armB[k] - matter).dot(visit.n) + offset;
     visit.corrects = visit.corrects || p.gapAtStart < -kTouching || !p.slip.isZero(0);
     active = active || visit.gap[k] < 0 || p.normalTotal != 0;

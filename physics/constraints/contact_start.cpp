@@ -44,6 +44,7 @@ void measureStart(ContactPair& pair, const Bodies& bodies) {
     p.anchorB = rotationB.transpose() * armB;
     p.normal = n;
     p.gapAtStart = (armB - rotationB * p.shape.coreB).dot(n) - p.shape.radiusB;
+    p.gapAtAnchors = p.gapAtStart;
     if (!bodies.second.empty()) p.gapAtStart = gapOf(pair, k, bodies.second.origin);
     p.approach = n.dot(va.v + va.w.cross(armA) - vb.v - vb.w.cross(armB));
   }
