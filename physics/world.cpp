@@ -117,16 +117,15 @@ void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
 }
 
 void finish(World::Impl& w, double h, StepReport& report) {
+  const double restitution = w.settings.contact ? w.settings.contact->restitution : 0;
+  if (restitution > 0) w.velocityBefore = w.bodies.velocity;
   if (isSecondOrder(w.settings)) {
     finishSecondOrder(w.bodies, w.loads, w.settings.gravity);
     projectVelocities(w);
   } else {
     finishVelocities(w.bodies, h);  // (43)-(46)
   }
-  if (w.settings.contact && w.settings.contact->restitution > 0) {
-    restitute(w.contacts, w.bodies, w.settings.contact->restitution,
-              {w.settings.gravity, w.loads, h});
-  }
+  if (restitution > 0) restitute(w.contacts, w.bodies, restitution, w.flight(h));
   if (isSecondOrder(w.settings)) recordSchemes(w, report);
 }
 

@@ -5,6 +5,7 @@
 #include "physics/constraints/contact.h"
 #include "physics/constraints/soft_contact.h"
 #include "physics/effects/free_motion.h"
+#include "physics/effects/restitution.h"
 #include "physics/kinds.h"
 #include "physics/kinematics/driven_arm.h"
 #include "physics/methods/conjugate.h"
@@ -39,6 +40,7 @@ struct World::Impl {
   std::vector<ContactPair> contactsBefore;  // as the substep found them; second order only
   ImpulseSystem impulses;   // sequential impulses only
   PenaltySystem penalty;    // penalty forces only
+  std::vector<Velocity> velocityBefore;  // free of contacts, restitution only
   std::vector<Pose> ahead;  // scratch: poses at the end of the step, as far as now is known
 
   struct Snapshot {  // the last good state
@@ -49,6 +51,7 @@ struct World::Impl {
   bool hasShapes = false;
   // Before contacts are first looked for, when it is known which points a soft surface touches for.
   void takeShapes();
+  FreeFlight flight(double dt) const;  // what restitution takes for granted, from velocityBefore
 
   void ignore(BodyId a, BodyId b) {
     collider.ignore(a, b);

@@ -35,6 +35,18 @@ void findContactsHere(World::Impl& w) {
 
 }  // namespace
 
+FreeFlight World::Impl::flight(double dt) const {
+  FreeFlight flight{settings.gravity, loads, velocityBefore, {}, dt};
+  flight.attached.assign(bodies.pose.size(), false);
+  forEachKind(kinds, [&](const auto& kind) {
+    for (const auto& item : kind.set.items) {
+      for (const BodyId body : item.bodies) flight.attached[body] = true;
+    }
+  });
+  for (const SoftContact& contact : softContacts) flight.attached[contact.body] = true;
+  return flight;
+}
+
 bool World::setState(std::span<const Pose> poses, std::span<const Velocity> velocities) {
   Bodies& b = impl_->bodies;
   const auto count = static_cast<std::size_t>(b.size());

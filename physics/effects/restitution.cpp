@@ -11,12 +11,15 @@ namespace {
 
 constexpr int kElasticSweeps = 100;  // after these, what still approaches stays together
 constexpr int kMostSweeps = 200;
-constexpr double kSlowest = 1e-9;  // m/s: slower than this is rounding
+constexpr int kManifoldSweeps = 500;  // of a manifold's points, at the most
+constexpr double kSlowest = 1e-9;     // m/s: slower than this is rounding
+constexpr double kClose = 1e-6;       // m: what is nearer than this hands an impact on
 
 using PerPoint = std::array<double, Manifold::kMaxPoints>;
 
 struct Impact {
   const ContactPair* pair = nullptr;
+  std::array<bool, Manifold::kMaxPoints> touches{};
   PerPoint speed{};      // v_i of each point, 0 where it does not bounce [m/s]
   PerPoint left{};       // tau of each point [s]
   bool bounces = false;  // some point does
@@ -76,29 +79,36 @@ void fly(const ContactPointState& p, double a, double dt, double& speed, double&
   left = std::max(dt - time, 0.0);
 }
 
+Vec3 accelerationApart(const ContactPair& pair, const Bodies& bodies, const FreeFlight& flight) {
+  return acceleration(bodies, flight, pair.a) - acceleration(bodies, flight, pair.b);
+}
+
+// All pairs that touch at the end of the substep, those that rest too.
 std::vector<Impact> impactsOf(const Contacts& contacts, const Bodies& bodies,
                               const FreeFlight& flight, double threshold) {
   std::vector<Impact> impacts;
   for (const ContactPair& pair : contacts.pairs) {
     Impact impact;
     impact.pair = &pair;
-    const Vec3 apart = acceleration(bodies, flight, pair.a) - acceleration(bodies, flight, pair.b);
-    bool loaded = false;
+    const Vec3 apart = accelerationApart(pair, bodies, flight);
+    bool touches = false;
     for (int k = 0; k < pair.count; ++k) {
       const ContactPointState& p = pair.points[k];
-      if (p.normalTotal <= 0) continue;
-      loaded = true;
+      impact.touches[k] = p.normalTotal > 0 || gapOf(pair, k, bodies.pose) < kClose;
+      if (!impact.touches[k]) continue;
+      touches = true;
       fly(p, p.normal.dot(apart), flight.dt, impact.speed[k], impact.left[k]);
       if (impact.speed[k] > -threshold) impact.speed[k] = 0;
       impact.bounces = impact.bounces || impact.speed[k] < 0;
     }
-    if (loaded) impacts.push_back(impact);
+    if (touches) impacts.push_back(impact);
   }
   return impacts;
 }
 
-// Marks what an impact can reach: pairs that share a moving body with one that was reached.
-void spread(std::vector<Impact>& impacts, const Bodies& bodies) {
+// Marks what an impact can reach, pairs that share a moving body with one that was reached, and
+// tells the bodies.
+std::vector<bool> spread(std::vector<Impact>& impacts, const Bodies& bodies) {
   std::vector<bool> reached(bodies.pose.size(), false);
   const auto moves = [&](BodyId body) { return bodies.motion[body] == Motion::kDynamic; };
   for (bool more = true; more;) {
@@ -110,13 +120,56 @@ void spread(std::vector<Impact>& impacts, const Bodies& bodies) {
       impact.met = reached[a] = reached[b] = more = true;
     }
   }
+  return reached;
 }
 
-// Takes back what the solve made of the normals' impulses.
-void undo(const Impact& impact, Bodies& bodies, double dt) {
-  for (int k = 0; k < impact.pair->count; ++k) {
-    const double total = impact.pair->points[k].normalTotal;
-    if (total > 0) push(*impact.pair, leverOf(*impact.pair, k, bodies), -total / dt, bodies);
+// What the contacts of a body gave it in the solve, times h^2.
+struct Given {
+  Vec3 normal = Vec3::Zero(), normalTurn = Vec3::Zero();
+  Vec3 friction = Vec3::Zero(), frictionTurn = Vec3::Zero();
+  int pairs = 0;
+};
+
+std::vector<Given> givenBy(const std::vector<Impact>& impacts, const Bodies& bodies) {
+  std::vector<Given> given(bodies.pose.size());
+  for (const Impact& impact : impacts) {
+    const ContactPair& pair = *impact.pair;
+    for (int k = 0; k < pair.count; ++k) {
+      const ContactPointState& p = pair.points[k];
+      const Vec3 point = pointOf(pair, k, bodies.pose), normal = p.normalTotal * p.normal;
+      for (const double sign : {1.0, -1.0}) {
+        const BodyId body = sign > 0 ? pair.a : pair.b;
+        const Vec3 arm = point - bodies.pose[body].x;
+        Given& sum = given[body];
+        sum.pairs += k == 0;
+        sum.normal += sign * normal;
+        sum.normalTurn += sign * arm.cross(normal);
+        sum.friction += sign * p.frictionTotal;
+        sum.frictionTurn += sign * arm.cross(p.frictionTotal);
+      }
+    }
+  }
+  return given;
+}
+
+// True where nothing but its contacts moved the body in this substep.
+bool isFree(const Bodies& bodies, BodyId body, const FreeFlight& flight) {
+  const Correction& correction = bodies.correction[body];
+  return !flight.attached[body] && correction.dx.isZero(0) && correction.dtheta.isZero(0);
+}
+
+// Takes back what the solve made of the normals' impulses: exactly where only contacts moved the
+// body, else to first order of its turn in the substep.
+void undo(const Given& given, Bodies& bodies, BodyId body, const FreeFlight& flight) {
+  if (bodies.motion[body] != Motion::kDynamic) return;
+  Velocity& velocity = bodies.velocity[body];
+  const InverseMass& inverse = bodies.inverse[body];
+  if (isFree(bodies, body, flight)) {
+    velocity.v = flight.before[body].v + inverse.m / flight.dt * given.friction;
+    velocity.w = flight.before[body].w + inverse.inertia * given.frictionTurn / flight.dt;
+  } else {
+    velocity.v -= inverse.m / flight.dt * given.normal;
+    velocity.w -= inverse.inertia * given.normalTurn / flight.dt;
   }
 }
 
@@ -139,69 +192,79 @@ bool strike(Impact& impact, Bodies& bodies, double restitution, double threshold
   for (int k = 0; k < pair.count; ++k) {
     levers[k] = leverOf(pair, k, bodies);
     const double speed = speedAt(pair, levers[k], bodies);
-    approaches = approaches || (pair.points[k].normalTotal > 0 && speed < -kSlowest);
+    approaches = approaches || (impact.touches[k] && speed < -kSlowest);
     target[k] = wanted(impact, k, speed, restitution, threshold, rise);
   }
   if (!approaches) return false;
-  constexpr int kSweeps = 30;  // of a manifold's four points
-  for (int sweep = 0; sweep < (pair.count > 1 ? kSweeps : 1); ++sweep) {
+  for (int sweep = 0; sweep < kManifoldSweeps; ++sweep) {
+    double most = 0;  // change of speed at a point [m/s]
     for (int k = 0; k < pair.count; ++k) {
-      if (pair.points[k].normalTotal <= 0 || !(levers[k].resistance > 1e-300)) continue;
+      if (!impact.touches[k] || !(levers[k].resistance > 1e-300)) continue;
       const double missing = target[k] - speedAt(pair, levers[k], bodies);
       const double next = std::max(total[k] + missing / levers[k].resistance, 0.0);
       push(pair, levers[k], next - total[k], bodies);
+      most = std::max(most, std::abs(next - total[k]) * levers[k].resistance);
       total[k] = next;
     }
+    if (most < 0.01 * kSlowest) break;
   }
   ++impact.strikes;
   return true;
 }
 
-// True where nothing but this contact moved the body in this substep.
-bool isAlone(const ContactPair& pair, int k, BodyId body, const Bodies& bodies) {
-  if (bodies.motion[body] != Motion::kDynamic) return true;
-  const ContactPointState& p = pair.points[k];
-  const double sign = body == pair.a ? 1 : -1;
-  const Vec3 own = sign * bodies.inverse[body].m * (p.normalTotal * p.normal + p.frictionTotal);
-  const Correction& correction = bodies.correction[body];
-  return (bodies.shift[body] - own).norm() <= 1e-9 * own.norm() && correction.dx.isZero(0) &&
-         correction.dtheta.isZero(0);
-}
-
-// The only point of a pair that carries an impulse and meets nothing else; -1: none.
-int alone(const Impact& impact, const Bodies& bodies) {
-  int only = -1, count = 0;
-  for (int k = 0; k < impact.pair->count; ++k) {
-    if (impact.pair->points[k].normalTotal > 0) only = k, ++count;
+// A point of a pair that meets nothing else, whose points all hit at the same time and speed (a
+// ball, a box that falls flat); -1: none.
+int alone(const Impact& impact, const std::vector<Given>& given, const Bodies& bodies,
+          const FreeFlight& flight) {
+  const ContactPair& pair = *impact.pair;
+  int any = -1;
+  for (int k = 0; k < pair.count; ++k) {
+    if (!impact.touches[k]) continue;
+    if (any < 0) any = k;
+    const double apart = std::abs(impact.speed[k] - impact.speed[any]);
+    if (impact.speed[k] == 0 || apart > -1e-9 * impact.speed[k]) return -1;
   }
-  if (count != 1 || impact.speed[only] == 0) return -1;
-  const bool free = isAlone(*impact.pair, only, impact.pair->a, bodies) &&
-                    isAlone(*impact.pair, only, impact.pair->b, bodies);
-  return free ? only : -1;
+  for (const BodyId body : {pair.a, pair.b}) {
+    const bool moves = bodies.motion[body] == Motion::kDynamic;
+    if (moves && (given[body].pairs > 1 || !isFree(bodies, body, flight))) return -1;
+  }
+  return any;
 }
 
-// Opens the gap by what is flown after the hit.
-void flyOn(const ContactPair& pair, int k, double gap, Bodies& bodies) {
+// Opens the gap by what is flown after the hit; where several points hit, without a turn.
+void flyOn(const Impact& impact, int k, double gap, Bodies& bodies) {
+  const ContactPair& pair = *impact.pair;
+  const bool turns = std::count(impact.touches.begin(), impact.touches.end(), true) == 1;
+  const double ma = bodies.inverse[pair.a].m, mb = bodies.inverse[pair.b].m;
   const Lever lever = leverOf(pair, k, bodies);
-  const double part = (gap - gapOf(pair, k, bodies.pose)) / lever.resistance;
-  displace(bodies.pose[pair.a], bodies.inverse[pair.a].m * part * lever.n, part * lever.wa);
-  displace(bodies.pose[pair.b], -bodies.inverse[pair.b].m * part * lever.n, -part * lever.wb);
+  const double part = (gap - gapOf(pair, k, bodies.pose)) / (turns ? lever.resistance : ma + mb);
+  const double turn = turns ? part : 0;
+  displace(bodies.pose[pair.a], ma * part * lever.n, turn * lever.wa);
+  displace(bodies.pose[pair.b], -mb * part * lever.n, -turn * lever.wb);
 }
 
 // A hit that nothing else meets: exact in time.
-bool strikeAlone(Impact& impact, Bodies& bodies, double restitution, double threshold,
-                 const FreeFlight& flight) {
-  const int k = alone(impact, bodies);
-  if (k < 0) return false;
+bool strikeAlone(Impact& impact, int k, const std::vector<Given>& given, Bodies& bodies,
+                 double restitution, double threshold, const FreeFlight& flight) {
   const ContactPair& pair = *impact.pair;
-  const double a = pair.points[k].normal.dot(acceleration(bodies, flight, pair.a) -
-                                             acceleration(bodies, flight, pair.b));
+  const double a = pair.points[k].normal.dot(accelerationApart(pair, bodies, flight));
   const double tau = impact.left[k], gap = (-restitution * impact.speed[k] + 0.5 * a * tau) * tau;
   if (!(gap > 0)) return false;
-  undo(impact, bodies, flight.dt);
+  for (const BodyId body : {pair.a, pair.b}) undo(given[body], bodies, body, flight);
   strike(impact, bodies, restitution, threshold, a * tau);
-  flyOn(pair, k, gap, bodies);
+  flyOn(impact, k, gap, bodies);
   return true;
+}
+
+// Pairs hit one another in turn until none approaches.
+void strikeInTurn(std::vector<Impact>& impacts, Bodies& bodies, double restitution,
+                  double threshold) {
+  bool struck = !impacts.empty();
+  for (int sweep = 0; struck && sweep < kMostSweeps; ++sweep) {
+    struck = false;
+    const double e = sweep < kElasticSweeps ? restitution : 0;
+    for (Impact& impact : impacts) struck = strike(impact, bodies, e, threshold, 0) || struck;
+  }
 }
 
 }  // namespace
@@ -211,19 +274,19 @@ void restitute(const Contacts& contacts, Bodies& bodies, double restitution,
   const double threshold =
       std::max(flight.gravity ? 2 * flight.dt * flight.gravity->norm() : 0.0, kSlowest);
   std::vector<Impact> impacts = impactsOf(contacts, bodies, flight, threshold);
+  if (std::none_of(impacts.begin(), impacts.end(), [](auto& i) { return i.bounces; })) return;
+  const std::vector<Given> given = givenBy(impacts, bodies);
   for (Impact& impact : impacts) {
-    impact.over = impact.bounces && strikeAlone(impact, bodies, restitution, threshold, flight);
+    const int k = impact.bounces ? alone(impact, given, bodies, flight) : -1;
+    impact.over = k >= 0 && strikeAlone(impact, k, given, bodies, restitution, threshold, flight);
   }
   std::erase_if(impacts, [](const Impact& impact) { return impact.over; });
-  spread(impacts, bodies);
+  const std::vector<bool> reached = spread(impacts, bodies);
   std::erase_if(impacts, [](const Impact& impact) { return !impact.met; });
-  for (const Impact& impact : impacts) undo(impact, bodies, flight.dt);
-  bool struck = !impacts.empty();
-  for (int sweep = 0; struck && sweep < kMostSweeps; ++sweep) {
-    struck = false;
-    const double e = sweep < kElasticSweeps ? restitution : 0;
-    for (Impact& impact : impacts) struck = strike(impact, bodies, e, threshold, 0) || struck;
+  for (BodyId body = 0; body < bodies.size(); ++body) {
+    if (reached[body]) undo(given[body], bodies, body, flight);
   }
+  strikeInTurn(impacts, bodies, restitution, threshold);
 }
 
 }  // namespace physics

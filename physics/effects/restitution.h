@@ -20,7 +20,10 @@ namespace physics {
 struct FreeFlight {
   std::optional<Vec3> gravity;  // m/s^2
   std::span<const Load> loads;  // by BodyId
-  double dt = 0;                // the substep [s]
+  // by BodyId: at the start of the substep, with its gravity and loads
+  std::span<const Velocity> before;
+  std::vector<bool> attached;  // by BodyId: more than contacts may have moved it: joints, springs
+  double dt = 0;               // the substep [s]
 };
 
 // After the velocities are known. Contacts slower than twice what gravity gives in a substep do not

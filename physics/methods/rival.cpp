@@ -50,10 +50,25 @@ void coast(World::Impl& world, double dt) {
   }
 }
 
+// Speeds of approach are those that the substep's own acceleration leads to, as restitution wants
+// them.
+void measureContacts(World::Impl& world, double dt) {
+  Bodies& bodies = world.bodies;
+  world.velocityBefore = bodies.velocity;
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies.motion[i] != Motion::kDynamic) continue;
+    const Vec3 gravity = world.settings.gravity.value_or(Vec3::Zero());
+    world.velocityBefore[i].v += dt * (gravity + bodies.inverse[i].m * world.loads[i].force);
+  }
+  std::swap(bodies.velocity, world.velocityBefore);
+  for (ContactPair& pair : world.contacts.pairs) measureStart(pair, bodies);
+  std::swap(bodies.velocity, world.velocityBefore);
+}
+
 void rivalSubstep(World::Impl& world, double dt, StepReport& report) {
   world.bodies.pose = world.bodies.start;
   refreshInertia(world.bodies);
-  for (ContactPair& pair : world.contacts.pairs) measureStart(pair, world.bodies);
+  measureContacts(world, dt);
   switch (world.settings.method) {
     case Method::kXpbd:
       return xpbd(world, dt, report);
@@ -91,8 +106,7 @@ void advance(Bodies& bodies, double dt) {
 void bounce(World::Impl& world, double dt) {
   const Settings& settings = world.settings;
   if (!settings.contact || settings.contact->restitution == 0) return;
-  restitute(world.contacts, world.bodies, settings.contact->restitution,
-            {settings.gravity, world.loads, dt});
+  restitute(world.contacts, world.bodies, settings.contact->restitution, world.flight(dt));
 }
 
 void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body) {
