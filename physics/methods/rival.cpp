@@ -68,7 +68,11 @@ void measureContacts(World::Impl& world, double dt) {
 void rivalSubstep(World::Impl& world, double dt, StepReport& report) {
   world.bodies.pose = world.bodies.start;
   refreshInertia(world.bodies);
-  measureContacts(world, dt);
+  if (world.settings.method == Method::kXpbd) {  // its own restitution: speeds before the substep
+    for (ContactPair& pair : world.contacts.pairs) measureStart(pair, world.bodies);
+  } else {
+    measureContacts(world, dt);
+  }
   switch (world.settings.method) {
     case Method::kXpbd:
       return xpbd(world, dt, report);
