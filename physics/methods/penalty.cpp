@@ -142,7 +142,7 @@ void judgeFriction(World::Impl& world, const std::vector<Correction>& change) {
     const Vec3 after = before + more;
     if (contact.point != nullptr) {
       contact.point->sticking =
-          contact.sliding ? before.tail<2>().dot(after.tail<2>()) <= 0 : !breaks;
+          contact.sliding ? contact.stopped || before.tail<2>().dot(after.tail<2>()) <= 0 : !breaks;
     }
     if (breaks) contact.f.tail<2>() *= friction.dynamicCoefficient * contact.f[0] / length;
   }

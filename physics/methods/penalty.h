@@ -42,6 +42,7 @@ struct StiffTouch {
   Vec3 f = Vec3::Zero();         // along the rows, times h^2
   Vec3 k = Vec3::Zero();         // the same
   bool sliding = false;
+  bool stopped = false;      // the normal force is more than enough to hold it
   double* normal = nullptr;  // the multipliers, where contacts keep them
   Vec3* friction = nullptr;
   ContactPointState* point = nullptr;  // of a rigid contact

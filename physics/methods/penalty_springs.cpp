@@ -106,19 +106,22 @@ void rubExplicitly(const Vec2& stretched, const Vec2& damped, StiffTouch& contac
   *contact.friction = share * (stretched[0] * contact.rows[1].d + stretched[1] * contact.rows[2].d);
 }
 
-// Implicit steps guess it: whether the contact sticks was seen after the last solve, and a new one
-// sticks where the slip would take less than the bound to stop.
-void rubImplicitly(double normal, const Vec2& follow, const Vec2& stretched, const Vec2& damped,
-                   StiffTouch& contact) {
+// Implicit steps guess it. Whether the contact sticks was seen after the last solve: a stiff damper
+// holds it, without a memory, for it hardly slips. A sliding one takes nu_d lambda_n of the guess,
+// or where that is more than would stop it alone, a damper that cannot drive.
+void rubImplicitly(double normal, const Vec2& follow, StiffTouch& contact) {
   const Friction& friction = contact.touch.friction;
   const double size = follow.norm();
-  contact.sliding = contact.point != nullptr
-                        ? !contact.point->sticking
-                        : size > friction.staticCoefficient * normal * contact.rows[1].resistance;
-  contact.f.tail<2>() = stretched + damped;
-  if (!contact.sliding) return;
-  contact.k.tail<2>().setZero();
-  contact.f.tail<2>() = -friction.dynamicCoefficient * normal / std::max(size, 1e-300) * follow;
+  const double damper = 1 / std::max(contact.rows[1].resistance, contact.rows[2].resistance);
+  const double rubs = friction.dynamicCoefficient * normal;
+  const bool sticks = contact.point != nullptr
+                          ? contact.point->sticking
+                          : damper * size <= friction.staticCoefficient * normal;
+  contact.stopped = rubs >= damper * size;
+  contact.sliding = !sticks;
+  if (contact.sliding) contact.k.tail<2>().setConstant(contact.stopped ? damper : 0);
+  contact.f.tail<2>() = -contact.k.tail<2>().cwiseProduct(follow);
+  if (contact.sliding && !contact.stopped) contact.f.tail<2>() = -rubs / size * follow;
 }
 
 bool takeTouch(const PenaltyScheme& scheme, double share, double c, bool first, StiffTouch& contact,
@@ -130,22 +133,25 @@ bool takeTouch(const PenaltyScheme& scheme, double share, double c, bool first, 
     d[i] = scheme.delta / (share * contact.rows[i].resistance);
   }
   contact.f[0] = -k[0] * c - d[0] * follow[0];
-  if (!(contact.f[0] > 0)) return false;
+  if (first && !(contact.f[0] > 0)) return false;
   contact.k = k + d;
+  if (scheme.implicit) {
+    const double stops = -c / contact.rows[0].resistance;
+    const double normal = !first ? contact.f[0] : *contact.normal > 0 ? *contact.normal : stops;
+    *contact.normal = std::max(normal, 1e-300);
+    rubImplicitly(std::max(normal, 0.0), follow.tail<2>(), contact);
+    return true;
+  }
   const Vec2 memory(contact.friction->dot(contact.rows[1].d),
                     contact.friction->dot(contact.rows[2].d));
   const Vec2 stretched = memory - k.tail<2>().cwiseProduct(follow.tail<2>());
   const Vec2 damped = -d.tail<2>().cwiseProduct(follow.tail<2>());
-  if (!scheme.implicit) {
-    rubExplicitly(stretched, damped, contact);
-    return true;
-  }
-  const double stops = -c / (contact.rows[0].resistance * share);
-  const double normal = !first ? contact.f[0] : *contact.normal > 0 ? *contact.normal : stops;
-  rubImplicitly(normal, follow.tail<2>(), stretched, damped, contact);
+  rubExplicitly(stretched, damped, contact);
   return true;
 }
 
+// A contact that implicit steps have found stays for the substep, and may even pull in it: what the
+// Newton steps look for must not come and go.
 bool takeTouches(World::Impl& world, double dt, const PenaltyScheme& scheme, bool first,
                  StepReport& report) {
   world.penalty.touches.clear();
@@ -156,7 +162,7 @@ bool takeTouches(World::Impl& world, double dt, const PenaltyScheme& scheme, boo
         const double fastest = world.settings.contact->maxSeparationSpeed * dt;
         const double c =
             touch.gap + (scheme.implicit ? std::max(0.0, -touch.startGap - fastest) : 0.0);
-        if (c >= 0) {
+        if (c >= 0 && (first || normal == 0)) {
           normal = 0;
           friction.setZero();
           return true;
