@@ -43,14 +43,15 @@ struct Settings {
   double tolerance = 2e-7;  // this in a sweep [m]
   Method method = Method::kNonlinearGaussSeidel;
   Stepping stepping = Stepping::kPaper;
-  double relaxation = 1;                   // xi (53)
-  double regularisation = 0;               // epsilon, alpha = epsilon * J M^-1 J^T (54)
+  double relaxation = 1;      // xi (53)
+  double regularisation = 0;  // epsilon, alpha = epsilon * J M^-1 J^T (54)
   Regularisation regularisationForm = Regularisation::kCompliance;
   bool spinInertia = false;    // M~ of (36),(65) instead of M, where |w| h <= 0.2
   bool refreshInertia = true;  // inertia follows the turn of every iteration (4.1)
   bool warmStart = true;       // contacts start from the last substep's multipliers
   bool warmStartJoints =
       false;  // and so do joints: better at rest, but violent motion may gain energy
+  std::optional<double> penaltyStiffness;  // kappa of the penalty methods; absent: their own
   std::optional<Vec3> gravity;             // m/s^2; absent: none
   std::optional<ContactSettings> contact;  // absent: nothing touches
 };

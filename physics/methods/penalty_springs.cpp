@@ -190,7 +190,7 @@ bool takeTouches(World::Impl& world, double dt, const PenaltyScheme& scheme, boo
 }  // namespace
 
 PenaltyScheme schemeOf(const Settings& settings, bool implicit) {
-  const double kappa = (settings.dt > 0 ? (implicit ? 1e4 : 1) : 0);
+  const double kappa = settings.penaltyStiffness.value_or(implicit ? 1e4 : 1);
   return {implicit, kappa, (implicit ? 2 : 1) * std::sqrt(kappa)};
 }
 

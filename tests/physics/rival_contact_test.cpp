@@ -73,7 +73,7 @@ TEST_P(RivalContact, ABlockSlidesAtElevenTenths) {
   const BodyId box = addBox(world, Vec3(0.6, 0.3, 0.4), 0);
   run(world, 120);
   const double exact = 0.5 * 9.81 * (std::sin(slope) - friction * std::cos(slope)) * 4;
-  const double rubbed = 0.5 * 9.81 * friction * std::cos(slope) * 4;  // by friction alone
+  const double rubbed = 0.5 * 9.81 * friction * std::cos(slope) * 4;        // by friction alone
   const double missing = GetParam().method == Method::kXpbd ? 0.06 : 0.02;  // of the friction
   EXPECT_NEAR(world.bodies().pose[box].x.x(), exact, missing * rubbed);
 }
