@@ -7,10 +7,12 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/build_info.h"
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/peers/peer.h"
 #include "render/renderer.h"
 
 namespace app {
@@ -84,8 +86,14 @@ Finding findScenes() {
   return {"scenes", fmt::format("{} in {}", count, scenes::libraryFolder()), count > 0, ""};
 }
 
+// Other engines are for the studies: nothing fails without them.
+Finding findPeer(const PeerEngine& engine) {
+  if (!engine.version.empty()) return {engine.name, engine.version, true, ""};
+  return {engine.name, "not built in: the studies go without; " + engine.package, true, ""};
+}
+
 ExitCode doctor() {
-  const Finding findings[] = {
+  std::vector<Finding> findings = {
       {"dbd", version() + ", " + compiler(), true, ""},
       {"cpu", cpuClass(), true, ""},
       findRenderer(),
@@ -94,6 +102,7 @@ ExitCode doctor() {
       findProgram("ffmpeg", "ffmpeg -hide_banner -version", "ffmpeg"),
       findProgram("gnuplot", "gnuplot --version", "gnuplot-nox"),
   };
+  for (const PeerEngine& engine : peerEngines()) findings.push_back(findPeer(engine));
   std::string missing;
   bool works = true;
   for (const Finding& finding : findings) {

@@ -20,6 +20,10 @@ struct Parts {
   std::array<BodyId, 2> bodies{};
   std::optional<std::array<Vec3, 2>> ball;
   std::optional<std::array<Vec3, 2>> axle;
+  std::optional<std::array<Vec3, 2>> cross;  // of a universal joint
+  std::optional<std::array<Vec3, 2>> line;   // anchors of a point on a line
+  Vec3 along = Vec3::Zero();                 // the line, in the first body's frame
+  bool locked = false;
   std::optional<physics::TwistLimit> twist;
 };
 
@@ -43,7 +47,7 @@ class Reader {
     const auto same = [&](const Parts& p) { return p.bodies == bodies; };
     const auto found = std::find_if(parts_.begin(), parts_.end(), same);
     if (found != parts_.end()) return *found;
-    parts_.push_back({bodies, {}, {}, {}});
+    parts_.emplace_back().bodies = bodies;
     return parts_.back();
   }
 
@@ -62,6 +66,20 @@ class Reader {
   }
   std::string add(const physics::Axle& c, Blueprint&) {
     partsOf(c.bodies).axle = {c.axisI, c.frameJ.col(2)};
+    return "";
+  }
+  std::string add(const physics::Perpendicular& c, Blueprint&) {
+    partsOf(c.bodies).cross = c.axes;
+    return "";
+  }
+  std::string add(const physics::PointOnLine& c, Blueprint&) {
+    Parts& parts = partsOf(c.bodies);
+    parts.line = c.anchors;
+    parts.along = c.frameI.col(2);
+    return "";
+  }
+  std::string add(const physics::OrientationLock& c, Blueprint&) {
+    partsOf(c.bodies).locked = true;
     return "";
   }
   std::string add(const physics::TwistLimit& c, Blueprint&) {
@@ -83,12 +101,22 @@ class Reader {
   static std::string addJoint(const Parts& parts, Blueprint& plan) {
     PeerJoint joint;
     joint.bodies = parts.bodies;
-    if (!parts.ball) return "other engines have no axle or twist_limit without a ball_socket";
-    joint.anchors = *parts.ball;
-    if (parts.axle) {
-      joint.kind = Kind::kHinge;
-      joint.axes = *parts.axle;
+    if (parts.line && parts.locked && !parts.ball && !parts.axle && !parts.cross && !parts.twist) {
+      const auto& pose = plan.start.pose;
+      joint.kind = Kind::kSlider;
+      joint.anchors = *parts.line;
+      joint.axes = {parts.along,
+                    pose[joint.bodies[1]].q.conjugate() * (pose[joint.bodies[0]].q * parts.along)};
+      plan.joints.push_back(joint);
+      return "";
     }
+    if (!parts.ball || parts.line || parts.locked || (parts.axle && parts.cross)) {
+      return "other engines have no joint of these constraints between two bodies";
+    }
+    joint.anchors = *parts.ball;
+    if (parts.axle) joint.kind = Kind::kHinge;
+    if (parts.cross) joint.kind = Kind::kUniversal;
+    if (parts.axle || parts.cross) joint.axes = parts.axle ? *parts.axle : *parts.cross;
     if (parts.twist) {
       const Vec3& n = parts.twist->axisI;
       if (!parts.axle || 1 - n.dot(joint.axes[0]) > kSameAxis) {
@@ -127,12 +155,14 @@ std::string refusalOf(const World& world) {
 std::string refusalOf(const World& world, const Blueprint& plan, const PeerJoint& joint) {
   for (int k = 0; k < 2; ++k) {
     if (isPoint(world, joint.bodies[k]) && isMovable(world, joint.bodies[k]) &&
-        (!joint.anchors[k].isZero(0) || joint.kind == Kind::kHinge)) {
+        (!joint.anchors[k].isZero(0) ||
+         (joint.kind != Kind::kBall && joint.kind != Kind::kDistance))) {
       return "other engines have no points that a joint holds beside their centre";
     }
   }
   const double open = (anchorAtStart(plan, joint, 0) - anchorAtStart(plan, joint, 1)).norm();
-  if (joint.kind != Kind::kDistance && open > kClosed) return "a joint that starts open";
+  const bool closed = joint.kind == Kind::kDistance || joint.kind == Kind::kSlider;
+  if (!closed && open > kClosed) return "other engines start with joints closed";
   return "";
 }
 

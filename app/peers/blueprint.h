@@ -12,11 +12,12 @@
 namespace app {
 
 struct PeerJoint {
-  enum class Kind { kBall, kHinge, kDistance };
+  enum class Kind { kBall, kHinge, kUniversal, kSlider, kDistance };
   Kind kind = Kind::kBall;
   std::array<physics::BodyId, 2> bodies{};
   std::array<physics::Vec3, 2> anchors{physics::Vec3::Zero(),
-                                       physics::Vec3::Zero()};                        // body frames
+                                       physics::Vec3::Zero()};  // body frames
+  // Of a hinge or a slider the same direction in both bodies, of a universal joint one in each.
   std::array<physics::Vec3, 2> axes{physics::Vec3::UnitX(), physics::Vec3::UnitX()};  // body frames
   double length = 0;                            // of a distance [m]
   std::optional<std::array<double, 2>> limits;  // turn of bodies[1] about the hinge's axis [rad]

@@ -53,11 +53,16 @@ class BulletRigid : public BulletPeer {
     }
   }
 
-  // The frame of a hinge in body `side`: z is the axis, and both frames agree at the start.
+  // The frame of a hinge or a slider in body `side`, both frames parallel at the start. The axis is
+  // z of a hinge, x of a slider.
   btTransform frame(const PeerJoint& joint, int side) const {
     const Vec3 n = axisAtStart(plan_, joint, 0), u = physics::anyNormalTo(n);
     Mat3 axes;
-    axes << u, n.cross(u), n;
+    if (joint.kind == Kind::kSlider) {
+      axes << n, u, n.cross(u);
+    } else {
+      axes << u, n.cross(u), n;
+    }
     const physics::Quat q =
         plan_.start.pose[joint.bodies[side]].q.conjugate() * physics::Quat(axes);
     return toBullet(physics::Pose{joint.anchors[side], q});
@@ -69,6 +74,14 @@ class BulletRigid : public BulletPeer {
     if (joint.kind == Kind::kBall) {
       joints_.push_back(std::make_unique<btPoint2PointConstraint>(a, b, toBullet(joint.anchors[0]),
                                                                   toBullet(joint.anchors[1])));
+    } else if (joint.kind == Kind::kUniversal) {
+      btVector3 at = toBullet(anchorAtStart(plan_, joint, 0));
+      btVector3 n1 = toBullet(axisAtStart(plan_, joint, 0)),
+                n2 = toBullet(axisAtStart(plan_, joint, 1));
+      joints_.push_back(std::make_unique<btUniversalConstraint>(a, b, at, n1, n2));
+    } else if (joint.kind == Kind::kSlider) {
+      joints_.push_back(
+          std::make_unique<btSliderConstraint>(a, b, frame(joint, 0), frame(joint, 1), true));
     } else {
       auto hinge = std::make_unique<btHingeConstraint>(a, b, frame(joint, 0), frame(joint, 1));
       // Bullet counts the turn of its first body against its second.

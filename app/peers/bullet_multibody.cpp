@@ -138,6 +138,11 @@ class BulletTree : public BulletPeer {
     } else if (link.joint->kind == Kind::kHinge) {
       body.setupRevolute(k, bodies_.mass[i], inertia, link.parent, turn,
                          toBullet(link.joint->axes[link.side]), pivot, toCentre);
+    } else if (link.joint->kind == Kind::kSlider) {
+      const Vec3 slid = pose.x - anchorAtStart(plan_, *link.joint, 1 - link.side);
+      body.setupPrismatic(k, bodies_.mass[i], inertia, link.parent, turn,
+                          toBullet(link.joint->axes[link.side]), pivot,
+                          toBullet(pose.q.conjugate() * slid), false);
     } else {  // a point on a rod
       const Vec3 rod = pose.x - anchorAtStart(plan_, *link.joint, 1 - link.side);
       body.setupRevolute(k, bodies_.mass[i], inertia, link.parent, turn,
@@ -157,12 +162,21 @@ class BulletTree : public BulletPeer {
     return rod.cross(slip) / rod.squaredNorm();
   }
 
+  double slideSpeed(const TreeLink& link) const {
+    const physics::Velocity& parent = bodies_.velocity[link.parentBody];
+    const Vec3 arm = bodies_.pose[link.body].x - bodies_.pose[link.parentBody].x;
+    const Vec3 n = axisAtStart(plan_, *link.joint, link.side);
+    return n.dot(bodies_.velocity[link.body].v - parent.v - parent.w.cross(arm));
+  }
+
   void setVelocity(btMultiBody& body, const Tree& tree, int k) {
     const TreeLink& link = tree.links[k];
     const Vec3 relative =
         bodies_.pose[link.body].q.conjugate() * (omega(tree, k) - omega(tree, link.parent));
     if (link.joint->kind == Kind::kBall) {
       body.setJointVelMultiDof(k, relative.data());
+    } else if (link.joint->kind == Kind::kSlider) {
+      body.setJointVel(k, slideSpeed(link));
     } else {
       const btVector3& axis = body.getLink(k).getAxisTop(0);
       body.setJointVel(k, fromBullet(axis).dot(relative));

@@ -78,6 +78,9 @@ struct Pull {
       push(g.bodies, {Vec3::Zero(), Vec3::Zero()}, -g.strength / (rho * rho * rho) * dp);
     }
   }
+  void operator()(const physics::ConstantForce& push) const {
+    loads[push.bodies[0]].force += push.force;
+  }
   void operator()(const physics::Drag& drag) const {
     const Vec3 u = state.velocity[drag.bodies[0]].v - drag.wind;
     loads[drag.bodies[0]].force -= drag.coefficient * u.norm() * u;

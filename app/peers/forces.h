@@ -1,5 +1,6 @@
-// Springs, drives, drag and point gravity as forces at the start of a step: what users of engines
-// write that have no such thing of their own. Explicit, so stable only while omega h < 2.
+// Springs, drives, drag, gravity between bodies and pushes as forces at the start of a step: what
+// users of engines write that have no such thing of their own. Explicit, so stable only while omega
+// h < 2.
 #pragma once
 
 #include <span>
@@ -28,9 +29,9 @@ class PeerForces {
   const std::vector<PeerLoad>& evaluate(const PeerState& state);
 
  private:
-  using Force =
-      std::variant<physics::Spring, physics::VectorSpring, physics::HardeningSpring,
-                   physics::PointGravity, physics::Drag, physics::Drive, physics::MotorTorque>;
+  using Force = std::variant<physics::Spring, physics::VectorSpring, physics::HardeningSpring,
+                             physics::PointGravity, physics::ConstantForce, physics::Drag,
+                             physics::Drive, physics::MotorTorque>;
   std::vector<Force> forces_;
   std::vector<PeerLoad> loads_;
 };

@@ -1,12 +1,11 @@
 // ODE: its direct solver and its iterative one. ERP and CFM at their defaults, finite rotations and
 // gyroscopic terms on.
-#include <ode/ode.h>
-
 #include <cmath>
 #include <stdexcept>
 
 #include "app/peers/blueprint.h"
 #include "app/peers/engines.h"
+#include "app/peers/ode_joints.h"
 
 namespace app {
 namespace {
@@ -64,7 +63,9 @@ class OdePeer : public Peer {
       addBody(world.bodies(), i);
       if (settings_.contact) addShape(world.bodies(), i);
     }
-    for (const PeerJoint& joint : plan_.joints) addJoint(joint);
+    for (const PeerJoint& joint : plan_.joints) {
+      addOdeJoint(world_, bodies_[joint.bodies[0]], bodies_[joint.bodies[1]], plan_, joint);
+    }
   }
   ~OdePeer() override {
     dJointGroupDestroy(contacts_);
@@ -172,36 +173,6 @@ class OdePeer : public Peer {
       toOde(alongZ ? pose.q * kZToY : pose.q, q);
       dGeomSetPosition(geom, pose.x.x(), pose.x.y(), pose.x.z());
       dGeomSetQuaternion(geom, q);
-    }
-  }
-
-  // The second body first: the angle of ODE's hinge is that of its first body against its second.
-  void addJoint(const PeerJoint& joint) {
-    const dBodyID first = bodies_[joint.bodies[1]], second = bodies_[joint.bodies[0]];
-    if (first == nullptr && second == nullptr) return;
-    const Vec3 p = anchorAtStart(plan_, joint, 1), p2 = anchorAtStart(plan_, joint, 0);
-    if (joint.kind == PeerJoint::Kind::kBall) {
-      const dJointID ball = dJointCreateBall(world_, nullptr);
-      dJointAttach(ball, first, second);
-      dJointSetBallAnchor(ball, p.x(), p.y(), p.z());
-    } else if (joint.kind == PeerJoint::Kind::kHinge) {
-      const Vec3 n = axisAtStart(plan_, joint, 0);
-      const dJointID hinge = dJointCreateHinge(world_, nullptr);
-      dJointAttach(hinge, first, second);
-      dJointSetHingeAnchor(hinge, p.x(), p.y(), p.z());
-      dJointSetHingeAxis(hinge, n.x(), n.y(), n.z());
-      if (joint.limits) {
-        dJointSetHingeParam(hinge, dParamLoStop, (*joint.limits)[0]);
-        dJointSetHingeParam(hinge, dParamHiStop, (*joint.limits)[1]);
-      }
-    } else {
-      const bool swapped = first == nullptr;
-      const Vec3 &a = swapped ? p2 : p, &b = swapped ? p : p2;
-      const dJointID distance = dJointCreateDBall(world_, nullptr);
-      dJointAttach(distance, swapped ? second : first, swapped ? first : second);
-      dJointSetDBallAnchor1(distance, a.x(), a.y(), a.z());
-      dJointSetDBallAnchor2(distance, b.x(), b.y(), b.z());
-      dJointSetDBallDistance(distance, joint.length);
     }
   }
 

@@ -49,7 +49,8 @@ struct PeerEngine {
 std::vector<PeerEngine> peerEngines();
 std::vector<PeerMethod> peerMethods();  // of the engines that are there
 
-// Nothing of `world` is changed or kept. `iterations` 0: the engine's default.
+// Nothing of `world` is changed or kept. `iterations` 0: the engine's default; those of a
+// solver that does not iterate are left out of account.
 // Throws std::invalid_argument for a method that is not there.
 PeerStart startPeer(const std::string& method, const physics::World& world, int iterations = 0);
 

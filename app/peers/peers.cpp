@@ -31,7 +31,8 @@ PeerStart startPeer(const std::string& method, const physics::World& world, int 
   for (const PeerOffer& offer : offers()) {
     for (const PeerEntry& entry : offer.entries) {
       if (entry.method.name == method) {
-        return entry.start(world, iterations > 0 ? iterations : entry.method.iterations);
+        const int standard = entry.method.iterations;  // 0: it does not iterate, whatever is asked
+        return entry.start(world, standard > 0 && iterations > 0 ? iterations : standard);
       }
     }
   }

@@ -67,6 +67,11 @@ class Finder {
     for (std::size_t k = 0; k < tree.links.size(); ++k) {
       attach(tree, tree.links[k].body, static_cast<int>(k));
     }
+    for (const TreeLink& link : tree.links) {
+      if (link.joint->kind == Kind::kUniversal) {
+        forest_.refusal = "Bullet's articulated bodies have no universal joint";
+      }
+    }
     if (closesLoop(tree)) forest_.refusal = "Bullet's articulated bodies are trees, without loops";
     findPlane(tree);
     forest_.trees.push_back(std::move(tree));

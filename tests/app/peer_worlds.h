@@ -7,6 +7,8 @@
 
 #include "app/peers/peer.h"
 #include "physics/make/hinge.h"
+#include "physics/make/prismatic.h"
+#include "physics/make/universal.h"
 #include "physics/measure.h"
 
 namespace tests {

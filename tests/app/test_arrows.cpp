@@ -63,9 +63,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 // How an include begins, and the files that may have it: how their path begins.
 const std::map<std::string, std::string> kPackages = {
-    {"fcl/", "physics/collision/"}, {"GL/", "render/"},       {"imgui", "render/"},
-    {"stb_", "render/png.cpp"},     {"toml++/", "scenes/"},   {"CLI/", "app/"},
-    {"nlohmann/", "app/"},          {"libdeflate", "render/"}};
+    {"fcl/", "physics/collision/"}, {"GL/", "render/"},        {"imgui", "render/"},
+    {"stb_", "render/png.cpp"},     {"toml++/", "scenes/"},    {"CLI/", "app/"},
+    {"nlohmann/", "app/"},          {"libdeflate", "render/"}, {"bt", "app/peers/bullet"},
+    {"Bullet", "app/peers/bullet"}, {"ode/", "app/peers/ode"}};
 
 TEST(Packages, StayBehindTheFilesThatMayKnowThem) {
   for (const char* folder : {"physics", "render", "scenes", "app"}) {

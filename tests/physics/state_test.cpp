@@ -1,0 +1,115 @@
+// A World that takes a state from outside, and tells its constraints as values.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "physics/constraint_item.h"
+#include "physics/measure.h"
+#include "physics/world.h"
+
+namespace physics {
+namespace {
+
+World makeBalls() {  // two that overlap by 0.1 m, on a spring and a distance
+  Settings settings;
+  settings.gravity = Vec3(0, -9.81, 0);
+  settings.contact = ContactSettings{};
+  World world(settings);
+  for (const double x : {0.0, 0.9}) {
+    BodyDef def;
+    def.shape = Sphere{0.5};
+    def.mass = 2;
+    def.pose.x = {x, 3, 0};
+    world.add(def);
+  }
+  SpringDef spring;
+  spring.bodies = {kWorldBody, 1};
+  spring.anchors = {Vec3(0, 5, 0), Vec3(0, 0.5, 0)};
+  spring.stiffness = 30;
+  world.add(spring);
+  return world;
+}
+
+struct State {
+  std::vector<Pose> pose;
+  std::vector<Velocity> velocity;
+};
+State stateOf(const World& world) { return {world.bodies().pose, world.bodies().velocity}; }
+
+TEST(SetState, FindsTheContactsAtThesePosesBeforeAnyStep) {
+  World world = makeBalls();
+  State state = stateOf(world);
+  ASSERT_TRUE(world.setState(state.pose, state.velocity));
+  EXPECT_NEAR(world.largestOverlap(), 0.1, 1e-12);
+  state.pose[2].x.x() = 1.25;
+  ASSERT_TRUE(world.setState(state.pose, state.velocity));
+  EXPECT_EQ(world.largestOverlap(), 0);
+  state.pose[2].x.x() = 0.8;
+  ASSERT_TRUE(world.setState(state.pose, state.velocity));
+  EXPECT_NEAR(world.largestOverlap(), 0.2, 1e-12);
+}
+
+TEST(SetState, MeasuresAsTheWorldThatWasSteppedThere) {
+  World stepped = makeBalls(), told = makeBalls();
+  for (int k = 0; k < 20; ++k) stepped.step();
+  const State state = stateOf(stepped);
+  ASSERT_TRUE(told.setState(state.pose, state.velocity));
+  EXPECT_EQ(measure(told).total(), measure(stepped).total());
+  EXPECT_EQ(measure(told).angularMomentum, measure(stepped).angularMomentum);
+  EXPECT_NEAR(told.largestOverlap(), stepped.largestOverlap(), 1e-6);  // manifolds may be older
+}
+
+TEST(SetState, LeavesNothingOfEarlierSteps) {
+  World used = makeBalls(), fresh = makeBalls();
+  const State start = stateOf(used);
+  for (int k = 0; k < 20; ++k) used.step();
+  ASSERT_TRUE(used.setState(start.pose, start.velocity));
+  ASSERT_TRUE(fresh.setState(start.pose, start.velocity));
+  for (int k = 0; k < 20; ++k) used.step(), fresh.step();
+  for (BodyId i = 1; i < used.bodyCount(); ++i) {
+    EXPECT_EQ(used.bodies().pose[i].x, fresh.bodies().pose[i].x);
+    EXPECT_EQ(used.bodies().velocity[i].w, fresh.bodies().velocity[i].w);
+  }
+}
+
+TEST(SetState, RefusesWhatIsNotFiniteAndChangesNothing) {
+  World world = makeBalls();
+  const State before = stateOf(world);
+  State state = before;
+  state.pose[1].x.y() = 7;
+  state.velocity[2].w.z() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(world.setState(state.pose, state.velocity));
+  state.velocity[2].w.z() = 0;
+  state.pose[2].q.coeffs().setZero();
+  EXPECT_FALSE(world.setState(state.pose, state.velocity));
+  EXPECT_EQ(world.bodies().pose[1].x, before.pose[1].x);
+  state.pose.pop_back();
+  EXPECT_THROW(world.setState(state.pose, state.velocity), std::invalid_argument);
+}
+
+TEST(SetState, LeavesTheWorldBodyWhereItIs) {
+  World world = makeBalls();
+  State state = stateOf(world);
+  state.pose[kWorldBody].x = {1, 2, 3};
+  ASSERT_TRUE(world.setState(state.pose, state.velocity));
+  EXPECT_EQ(world.bodies().pose[kWorldBody].x, Vec3::Zero());
+}
+
+TEST(Constraints, AreToldAsValuesWithTheirWords) {
+  World world = makeBalls();
+  DistanceDef distance;
+  distance.bodies = {1, 2};
+  distance.collide = false;
+  world.add(distance);
+  const std::vector<ConstraintItem> items = world.constraints();
+  ASSERT_EQ(items.size(), 2u);
+  EXPECT_STREQ(items[0].kind, "spring");
+  EXPECT_EQ(std::get<Spring>(items[0].item).stiffness, 30);
+  EXPECT_NEAR(std::get<Spring>(items[0].item).restLength, 1.5, 1e-12);
+  EXPECT_STREQ(items[1].kind, "distance");
+  EXPECT_NEAR(std::get<Distance>(items[1].item).length, 0.9, 1e-12);
+  EXPECT_EQ(world.ignoredPairs(), (std::vector<std::array<BodyId, 2>>{{1, 2}}));
+}
+
+}  // namespace
+}  // namespace physics
