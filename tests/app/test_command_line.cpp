@@ -88,7 +88,7 @@ TEST_F(CommandLine, ListNamesTheLibraryAsTextAndJson) {
 TEST_F(CommandLine, DoctorNamesEveryPart) {
   const Outcome outcome = run("doctor");
   EXPECT_TRUE(outcome.code == 0 || outcome.code == 4);
-  for (const char* part : {"renderer", "font", "ffmpeg", "gnuplot", "cpu"}) {
+  for (const char* part : {"renderer", "font", "ffmpeg", "gnuplot", "cpu", "Bullet", "ODE"}) {
     EXPECT_NE(outcome.output.find(part), std::string::npos) << part;
   }
 }
