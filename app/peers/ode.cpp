@@ -192,6 +192,23 @@ class OdePeer : public Peer {
 
   bool movable(BodyId i) const { return bodies_[i] != nullptr && !dBodyIsKinematic(bodies_[i]); }
 
+  Vec3 speedAt(BodyId i, const dVector3& p) const {
+    dVector3 v = {0, 0, 0, 0};
+    if (bodies_[i] != nullptr) dBodyGetPointVel(bodies_[i], p[0], p[1], p[2], v);
+    return fromOde(v);
+  }
+
+  // ODE's friction is a pyramid, which is right along its first axis: so that goes along the slip.
+  void turnPyramid(dContact& contact, BodyId a, BodyId b) const {
+    constexpr double kSlips = 1e-6;  // m/s
+    const Vec3 n = fromOde(contact.geom.normal);
+    const Vec3 v = speedAt(a, contact.geom.pos) - speedAt(b, contact.geom.pos);
+    const Vec3 slip = v - v.dot(n) * n;
+    if (slip.norm() < kSlips) return;
+    contact.surface.mode |= dContactFDir1;
+    for (int k = 0; k < 3; ++k) contact.fdir1[k] = slip[k] / slip.norm();
+  }
+
   static void near(void* self, dGeomID ga, dGeomID gb) {
     static_cast<OdePeer*>(self)->touch(ga, gb);
   }
@@ -209,6 +226,7 @@ class OdePeer : public Peer {
       surface.mu = std::sqrt(friction_[a - 1] * friction_[b - 1]);
       surface.bounce = settings_.contact->restitution;
       surface.bounce_vel = bounceSpeed_;
+      turnPyramid(contacts[k], a, b);
       dJointAttach(dJointCreateContact(world_, contacts_, &contacts[k]), bodies_[a], bodies_[b]);
     }
   }
