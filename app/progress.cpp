@@ -34,17 +34,22 @@ ProgressMode parseProgressMode(const std::string& word) {
   throw scenes::InputError(fmt::format("--progress {}: expected bar, lines, json or none", word));
 }
 
-Progress::Progress(ProgressMode mode, std::string scene, std::string stage, int total)
-    : mode_(mode), scene_(std::move(scene)), stage_(std::move(stage)), total_(total) {}
+Progress::Progress(ProgressMode mode, std::string scene, std::string stage, int total, double work)
+    : mode_(mode),
+      scene_(std::move(scene)),
+      stage_(std::move(stage)),
+      total_(total),
+      totalWork_(work) {}
 
 Progress::~Progress() {
   if (onBarLine_) note("\n");
 }
 
-void Progress::advance(int by) {
+void Progress::advance(int by, double work) {
   if (mode_ == ProgressMode::kNone) return;
   const std::lock_guard lock(mutex_);
   done_ += by;
+  doneWork_ += work;
   const double now = watch_.seconds();
   const double waited = now - reportedAt_;
   const bool tenth = 10 * (done_ - reportedDone_) >= total_;
@@ -61,10 +66,17 @@ void Progress::finish() {
   report(watch_.seconds());
 }
 
+double Progress::remaining(double seconds) const {
+  if (totalWork_ > 0) {
+    return doneWork_ > 0 ? seconds / doneWork_ * std::max(0.0, totalWork_ - doneWork_) : 0;
+  }
+  return done_ > 0 ? seconds / done_ * (total_ - done_) : 0;
+}
+
 void Progress::report(double seconds) {
   reportedAt_ = seconds;
   reportedDone_ = done_;
-  const double remaining = done_ > 0 ? seconds / done_ * (total_ - done_) : 0;
+  const double remaining = this->remaining(seconds);
   if (mode_ == ProgressMode::kBar) return drawBar(seconds, remaining);
   if (mode_ == ProgressMode::kJson) {
     const nlohmann::ordered_json line = {{"scene", scene_},    {"stage", stage_},

@@ -29,7 +29,7 @@ double expectedSeconds(const StudyResults& results, const StudyKey& key) {
   for (const StudyPoint& point : results.points) {
     const bool same = point.key.method == key.method && point.key.iterations == key.iterations;
     if (!same || !(point.isOk() || point.isFailure())) continue;
-    seconds = point.wall * results.study.duration * key.work() / point.key.work();
+    seconds = point.cost() * results.study.duration * key.work() / point.key.work();
   }
   return seconds;
 }
@@ -52,13 +52,24 @@ AccuracyStudy::AccuracyStudy(std::vector<StudyCase> cases, const fs::path& folde
       effort_(effortOf(quick)),
       store_(folder_ / "points.csv", keep) {
   int total = 0;
+  double work = 0;
   for (const StudyCase& study : cases_) {
     plans_.push_back(planPoints(study, quick_));
     results_.push_back({study, {}, {}});
     inputs_.push_back(inputsOf(study));
     total += static_cast<int>(plans_.back().size());
+    for (const PlannedPoint& planned : plans_.back()) work += workOf(plans_.size() - 1, planned);
   }
-  progress_.emplace(progress, "accuracy", "measuring", total);
+  progress_.emplace(progress, "accuracy", "measuring", total, work);
+}
+
+// A guess at the seconds that a point will take; nothing where it is known. For the progress alone.
+double AccuracyStudy::workOf(std::size_t index, const PlannedPoint& planned) const {
+  constexpr double kSweep = 3e-6;  // s, of a small scene
+  const auto m = static_cast<std::size_t>(planned.method);
+  if (store_.find(planned.key, inputs_[index].methods[m]) != nullptr) return 0;
+  const double run = kSweep * planned.key.work() * cases_[index].sampleCount();
+  return std::clamp(run, effort_.repeat, effort_.longest);
 }
 
 std::optional<StudyPoint> AccuracyStudy::pointFor(const PlannedPoint& planned,
@@ -102,7 +113,7 @@ StudyEnds AccuracyStudy::measurePoints(std::size_t index, const scenes::StudyTra
       results.points.push_back(*point);
       refused = point->status == Status::kRefused;
     }
-    progress_->advance();
+    progress_->advance(1, workOf(index, planned));
   }
   return {};
 }
@@ -118,15 +129,11 @@ StudyEnds AccuracyStudy::measure(int index) {
   } catch (const scenes::InputError& error) {
     return {false, error.what()};
   }
-  if (index + 1 == caseCount()) {
-    order();
-    progress_->finish();
-  }
   return {};
 }
 
-// The file in the order of the plan, whatever was measured when; rows of other cases first.
-void AccuracyStudy::order() {
+void AccuracyStudy::finish() {
+  progress_->finish();
   const auto isOurs = [&](const StudyPoint& point) {
     return std::any_of(cases_.begin(), cases_.end(),
                        [&](const StudyCase& study) { return study.name == point.key.study; });

@@ -27,6 +27,8 @@ class AccuracyStudy {
   int caseCount() const { return static_cast<int>(cases_.size()); }
   // Measures what is missing of a case.
   StudyEnds measure(int index);
+  // The table in the order of the plan, whatever was measured when; rows of other cases first.
+  void finish();
   const StudyResults& results(int index) const { return results_[static_cast<std::size_t>(index)]; }
   int reusedPoints() const { return reused_; }
 
@@ -39,7 +41,7 @@ class AccuracyStudy {
   std::optional<StudyPoint> pointFor(const PlannedPoint& planned, StudyResults& results,
                                      const scenes::StudyTrace& truth, const std::string& inputs);
   StudyEnds measurePoints(std::size_t index, const scenes::StudyTrace& truth);
-  void order();
+  double workOf(std::size_t index, const PlannedPoint& planned) const;
 
   std::vector<scenes::StudyCase> cases_;
   std::filesystem::path folder_;

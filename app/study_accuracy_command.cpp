@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/console.h"
+#include "app/interrupt.h"
 #include "app/study_accuracy.h"
 #include "app/study_commands.h"
 #include "app/study_page.h"
@@ -112,6 +113,16 @@ ExitCode tellInterrupted() {
   return ExitCode::kInterrupted;
 }
 
+// Diagrams and pictures of a case that was measured. False: interrupted.
+bool illustrate(const AccuracyOptions& options, bool hasGnuplot, const fs::path& folder,
+                StudyChapter& chapter) {
+  const StudyResults& results = *chapter.results;
+  chapter.shots = chooseShots(results);
+  if (hasGnuplot) drawPlots(results, folder);
+  chapter.plotted = hasGnuplot && results.best() != nullptr;
+  return !interrupted() && drawShots(results, chapter.shots, folder, options.fresh);
+}
+
 ExitCode accuracy(const AccuracyOptions& options) {
   std::vector<StudyCase> cases = readCases(options);
   if (options.list) return listCases(cases);
@@ -120,29 +131,26 @@ ExitCode accuracy(const AccuracyOptions& options) {
   const bool hasGnuplot = !gnuplotVersion().empty();
   AccuracyStudy accuracy(std::move(cases), folder, options.quick, !options.fresh, progress);
   std::vector<StudyChapter> chapters;
+  std::string summary;
   bool allMeasured = true;
   for (int i = 0; i < accuracy.caseCount(); ++i) {
     const StudyEnds ends = accuracy.measure(i);
-    if (ends.interrupted) return tellInterrupted();
-    const StudyResults& results = accuracy.results(i);
-    StudyChapter chapter{&results, chooseShots(results), false, ends.problem};
-    allMeasured = allMeasured && ends.problem.empty();
-    if (hasGnuplot) {
-      drawPlots(results, folder);
-      chapter.plotted = results.best() != nullptr;
+    StudyChapter chapter{&accuracy.results(i), {}, false, ends.problem};
+    if (ends.interrupted || !illustrate(options, hasGnuplot, folder, chapter)) {
+      return tellInterrupted();
     }
-    if (!drawShots(results, chapter.shots, folder, options.fresh)) return tellInterrupted();
+    allMeasured = allMeasured && ends.problem.empty();
+    summary += ends.problem.empty() ? summaryText(*chapter.results) : ends.problem + "\n";
     chapters.push_back(std::move(chapter));
-    if (!options.common.quiet)
-      say(ends.problem.empty() ? summaryText(results) : ends.problem + "\n");
-    writeStudyPage(chapters, commandLine(options), "", folder);  // so that it can be looked at
+    writeStudyPage(chapters, commandLine(options), folder);  // so that it can be looked at
   }
+  accuracy.finish();
   if (!hasGnuplot) {
     note(
         "dbd: no diagrams: cannot run gnuplot; install it with: sudo apt-get install -y "
         "gnuplot-nox, and run this again\n");
   }
-  if (!options.common.quiet) say((folder / "index.html").string() + "\n");
+  if (!options.common.quiet) say(summary + (folder / "index.html").string() + "\n");
   return allMeasured ? ExitCode::kDone : ExitCode::kCheckFailed;
 }
 

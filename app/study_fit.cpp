@@ -66,7 +66,7 @@ const StudyPoint* cheapest(std::span<const StudyPoint* const> points, double err
   const StudyPoint* best = nullptr;
   for (const StudyPoint* point : points) {
     if (!point->isOk() || point->errors.error > error) continue;
-    if (best == nullptr || point->wall < best->wall) best = point;
+    if (best == nullptr || point->cost() < best->cost()) best = point;
   }
   return best;
 }
@@ -77,7 +77,7 @@ std::vector<const StudyPoint*> front(std::span<const StudyPoint* const> points) 
     if (point->isOk()) sorted.push_back(point);
   }
   std::stable_sort(sorted.begin(), sorted.end(), [](const StudyPoint* a, const StudyPoint* b) {
-    return a->wall != b->wall ? a->wall < b->wall : a->errors.error < b->errors.error;
+    return a->cost() != b->cost() ? a->cost() < b->cost() : a->errors.error < b->errors.error;
   });
   std::vector<const StudyPoint*> result;
   for (const StudyPoint* point : sorted) {

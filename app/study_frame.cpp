@@ -34,20 +34,23 @@ void widen(const Range& range, double& low, double& high) {
   if (high < 10 * low) high = 10 * low;
 }
 
+// Lines at shares of the case's scale, named on the right.
 std::string percentLines(const StudyResults& results, const PlotFrame& frame) {
-  std::string text;
+  std::string lines, tics;
   for (const double percent : {100.0, 1.0, 0.1, 0.01}) {
     const double y = percent / 100 * results.study.scale;
     if (y < frame.lowY || y > frame.highY) continue;
-    text += fmt::format(
+    lines += fmt::format(
         "set arrow from graph 0,first {0:.9g} to graph 1,first {0:.9g} nohead back lw 1 dt (6,4) "
-        "lc "
-        "rgb '#b0b0b0'\n"
-        "set label \"{1:g} %\" at graph 0.992,first {0:.9g} right offset 0,0.45 textcolor rgb "
-        "'#707070' font ',10'\n",
-        y, percent);
+        "lc rgb '#b0b0b0'\n",
+        y);
+    tics += fmt::format("{}\"{:g} %%\" {:.9g}", tics.empty() ? "" : ", ", percent, y);
   }
-  return text;
+  if (tics.empty()) return "";
+  return lines + fmt::format(
+                     "set logscale y2\nset y2range [{:.9g}:{:.9g}]\nset y2tics ({}) scale 0 "
+                     "textcolor rgb '#707070' font ',10'\n",
+                     frame.lowY, frame.topY, tics);
 }
 
 std::string failureStrip(const PlotFrame& frame) {
@@ -119,21 +122,21 @@ std::string beginPlot(const StudyResults& results, const PlotFrame& frame, const
   text +=
       "set border 3 lw 1 lc rgb '#404040'\nset tics nomirror out scale 0.7,0.35\n"
       "set grid xtics ytics lc rgb '#ececec' lw 1 lt 1\n"
-      "set key outside right top Left reverse spacing 1.25 samplen 2.2 width 1 font ',10.5'\n";
+      "set key outside right top Left reverse spacing 1.25 samplen 2 width -1 font ',10.5'\n";
   return text + percentLines(results, frame) + failureStrip(frame);
 }
 
 std::string realTimeLine(const PlotFrame&) {
   return "set arrow from 1,graph 0 to 1,graph 1 nohead lw 1.4 dt (8,4) lc rgb '#505050'\n"
-         "set label \"real time: 1/60 s for a frame of 1/60 s\" at 1,graph 0.02 left rotate by 90 "
+         "set label \"real time: 1/60 s for a frame\" at 1,graph 0.02 left rotate by 90 "
          "offset -0.8,0 textcolor rgb '#505050' font ',10'\n";
 }
 
 std::string endPlot(const std::string& name, const std::string& plot) {
   return fmt::format(
-      "set terminal svg size 860,480 font 'DejaVu Sans,11' background rgb 'white'\n"
+      "set terminal svg size 900,440 font 'DejaVu Sans,11' background rgb 'white'\n"
       "set output '{0}.svg'\n{1}unset output\n"
-      "set terminal pngcairo size 1720,960 fontscale 2 linewidth 2 pointscale 2 font 'DejaVu "
+      "set terminal pngcairo size 1800,880 fontscale 2 linewidth 2 pointscale 2 font 'DejaVu "
       "Sans,11' "
       "background rgb 'white'\n"
       "set output '{0}.png'\nreplot\nunset output\n",

@@ -45,7 +45,7 @@ std::optional<StudyPoint> measureChoice(const StudyTrial& trial, const StudyKey&
 std::string outcome(const StudyPoint& point, const std::string& unit) {
   if (!point.isOk()) return fmt::format("{}: {}", statusName(point.status), point.message);
   return fmt::format("{} {}, {} per s", numberText(point.errors.error), unit,
-                     secondsText(point.wall));
+                     secondsText(point.cost()));
 }
 
 std::string ratioText(double with, double without) {
@@ -117,7 +117,7 @@ std::string optionSection(const OptionResult& result) {
         "<td class=\"number\">{}</td></tr>\n",
         escapeHtml(outcome(trial.with, trial.unit)), escapeHtml(outcome(trial.without, trial.unit)),
         ratioText(trial.with.errors.error, trial.without.errors.error),
-        ratioText(trial.with.wall, trial.without.wall));
+        ratioText(trial.with.cost(), trial.without.cost()));
   }
   return html + "</table></section>\n";
 }

@@ -70,6 +70,7 @@ ExitCode studyChoices(const OptionsOptions& options) {
   for (const scenes::StudyOption& option : all) total += static_cast<int>(option.trials.size());
   Progress progress(options.common.progressMode(), "options", "measuring", total);
   std::vector<OptionResult> results;
+  std::string summary;
   for (const scenes::StudyOption& option : all) {
     OptionResult result{option, {}};
     for (int t = 0; t < static_cast<int>(option.trials.size()); ++t) {
@@ -81,12 +82,12 @@ ExitCode studyChoices(const OptionsOptions& options) {
       result.trials.push_back(std::move(*trial));
       progress.advance();
     }
-    if (!options.common.quiet) say(optionText(result));
+    summary += optionText(result);
     results.push_back(std::move(result));
     writePage(results, folder);
   }
   progress.finish();
-  if (!options.common.quiet) say((folder / "index.html").string() + "\n");
+  if (!options.common.quiet) say(summary + (folder / "index.html").string() + "\n");
   return ExitCode::kDone;
 }
 

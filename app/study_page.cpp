@@ -37,8 +37,10 @@ std::string busyRemark(const std::vector<StudyChapter>& chapters) {
   if (busy == 0) return "";
   return fmt::format(
       "<p><span class=\"bad\">The machine was busy</span> while {} of {} cases were measured (load "
-      "average up to {:.1f} on {} cores): wall times there may be too long. Errors and constraint "
-      "evaluations do not depend on it.</p>\n",
+      "average up to {:.1f} on {} cores). Where other programs took the processor in every repeat, "
+      "the "
+      "time that a run had on it stands in for its wall time. Errors and constraint evaluations do "
+      "not depend on it.</p>\n",
       busy, chapters.size(), load, processorCount());
 }
 
@@ -59,7 +61,7 @@ std::string contents(const std::vector<StudyChapter>& chapters) {
                         escapeHtml(results.study.name), escapeHtml(results.study.title),
                         ours == nullptr
                             ? "not reached"
-                            : escapeHtml(fmt::format("{} per s, {}", secondsText(ours->wall),
+                            : escapeHtml(fmt::format("{} per s, {}", secondsText(ours->cost()),
                                                      results.methodTitle(*ours))),
                         cell(rows[0]), cell(rows[1]));
   }
@@ -68,8 +70,8 @@ std::string contents(const std::vector<StudyChapter>& chapters) {
 
 constexpr const char* kHowMeasured =
     "<details><summary>How this was measured</summary>\n<p>Each point simulates a whole case with "
-    "one method and one step. Its time is what the steps took, the least of the repeats, per "
-    "simulated second; measuring is not in it. Points were measured one after the other. "
+    "one method and one step. Its time is what the steps took, X Points were measured one after "
+    "the other. "
     "<em>Real time</em> is one second per simulated second: 1/60 s for a frame of 1/60 s. The "
     "error is the distance from the reference that each case names; 100 % is the case's scale. The "
     "order of convergence is the slope of a line through log error against log h, by least "
@@ -83,14 +85,13 @@ constexpr const char* kHowMeasured =
 }  // namespace
 
 std::filesystem::path writeStudyPage(const std::vector<StudyChapter>& chapters,
-                                     const std::string& command, const std::string& more,
+                                     const std::string& command,
                                      const std::filesystem::path& folder) {
   std::string body = "<h1>What accuracy costs in time</h1>\n<p class=\"quiet\">" +
                      escapeHtml(machineText()) + ".<br><code>" + escapeHtml(command) +
                      "</code></p>\n" + busyRemark(chapters) + kHowMeasured;
   if (!chapters.empty()) body += contents(chapters);
   for (const StudyChapter& chapter : chapters) body += caseSection(chapter);
-  body += more;
   const std::filesystem::path page = folder / "index.html";
   writeFile(page, htmlPage("What accuracy costs in time", body));
   return page;

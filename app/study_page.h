@@ -17,9 +17,9 @@ struct StudyChapter {
   std::string problem;  // why it has no points
 };
 
-// `more`: HTML of other studies, below the cases. `remark`: what the reader should know first.
+// `command`: what made it.
 std::filesystem::path writeStudyPage(const std::vector<StudyChapter>& chapters,
-                                     const std::string& command, const std::string& more,
+                                     const std::string& command,
                                      const std::filesystem::path& folder);
 
 }  // namespace app

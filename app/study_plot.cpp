@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/exit_code.h"
+#include "app/interrupt.h"
 #include "app/output_file.h"
 #include "app/study_frame.h"
 #include "render/child.h"
@@ -22,7 +23,7 @@ using Points = std::vector<const StudyPoint*>;
 
 // What a diagram is drawn against: the abscissa of a point.
 using Abscissa = double (*)(const StudyPoint&);
-double timeOf(const StudyPoint& point) { return point.wall; }
+double timeOf(const StudyPoint& point) { return point.cost(); }
 double stepOf(const StudyPoint& point) { return point.h; }
 
 // Point types of gnuplot, in the order of StudyMethod::Marker.
@@ -139,7 +140,9 @@ void addPublished(const StudyResults& results, const PlotFrame& frame, bool agai
 // Slopes of first and second order, from the lower middle of the diagram to its right.
 std::string slopeGuides(const PlotFrame& frame) {
   std::string text;
-  const double from = frame.highX / 12, to = frame.highX / 1.6, y = 1.6 * frame.lowY;
+  const double width = std::log10(frame.highX / frame.lowX), y = 1.4 * frame.lowY;
+  const double from = frame.highX * std::pow(10, -0.42 * width),
+               to = frame.highX * std::pow(10, -0.15 * width);
   for (const int order : {1, 2}) {
     const double end = y * std::pow(to / from, order);
     text += fmt::format(
@@ -160,7 +163,7 @@ void runGnuplot(const std::string& script, const fs::path& folder, const std::st
   if (!result.started)
     throw EnvironmentError(
         "cannot run gnuplot; install it with: sudo apt-get install -y gnuplot-nox");
-  if (result.exitCode != 0)
+  if (result.exitCode != 0 && !interrupted())
     throw EnvironmentError(fmt::format("gnuplot {}: {}", file.string(), result.errors));
 }
 

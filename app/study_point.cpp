@@ -129,6 +129,8 @@ std::string StudyKey::text() const {
   return text;
 }
 
+double StudyPoint::cost() const { return processor > 0 ? std::min(wall, processor) : wall; }
+
 bool StudyPoint::isFailure() const {
   return status == Status::kNotFinite || status == Status::kExploded || status == Status::kTooSlow;
 }

@@ -45,6 +45,9 @@ struct StudyPoint {
   std::string inputs;                  // hash of all that the numbers depend on
   std::string message;                 // why it is not ok
 
+  // What is compared: the wall time, or the processor's time where other programs took the
+  // processor meanwhile.
+  double cost() const;
   bool isOk() const { return status == Status::kOk; }
   bool isFailure() const;  // it ran, and its result is worthless
 };

@@ -61,9 +61,9 @@ std::optional<Timing> runMeasured(StudyRun& run, const StudyCase& study, double 
       break;
     }
     tracer.observe(run.simulation());
-    if (run.wall() > longest) {
+    if (run.processor() > longest) {
       point.status = Status::kTooSlow;
-      point.message = fmt::format("given up after {:.0f} s of {:.3g} s simulated", run.wall(),
+      point.message = fmt::format("given up after {:.0f} s of {:.3g} s simulated", run.processor(),
                                   static_cast<double>(k) / study.fps);
       break;
     }
@@ -74,7 +74,7 @@ std::optional<Timing> runMeasured(StudyRun& run, const StudyCase& study, double 
 // Runs that are only timed. False: interrupted.
 bool repeatRun(const scenes::Scene& scene, const StudyCase& study, const StudyMethod& method,
                const StudyKey& key, const StudyEffort& effort, std::vector<Timing>& timings) {
-  const double first = timings.front().wall;
+  const double first = timings.front().processor;
   timings.clear();  // the first run warmed up, and was disturbed by being measured
   double spent = 0;
   for (int i = 0; i < effort.mostRepeats; ++i) {
@@ -85,7 +85,7 @@ bool repeatRun(const scenes::Scene& scene, const StudyCase& study, const StudyMe
       run.advance();
     }
     timings.push_back({run.wall(), run.processor()});
-    spent += run.wall();
+    spent += run.processor();
   }
   return true;
 }
@@ -136,7 +136,7 @@ bool measure(const StudyCase& study, const StudyMethod& method, const scenes::St
   fillCounts(run.counts(), simulated, point);
   fillErrors(study, tracer, truth, point);
   std::vector<Timing> timings{*first};
-  const bool isShort = point.isOk() && first->wall < effort.repeat;
+  const bool isShort = point.isOk() && first->processor < effort.repeat;
   if (isShort && !repeatRun(scene, study, method, point.key, effort, timings)) return false;
   fillTimes(std::move(timings), simulated, point);
   return true;

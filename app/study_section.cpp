@@ -58,7 +58,7 @@ std::string pictures(const StudyChapter& chapter) {
 
 std::string reached(const StudyResults& results, const StudyPoint* point) {
   if (point == nullptr) return "<span class=\"quiet\">not reached</span>";
-  return escapeHtml(fmt::format("{} per s: {}, h = {} s, {}", secondsText(point->wall),
+  return escapeHtml(fmt::format("{} per s: {}, h = {} s, {}", secondsText(point->cost()),
                                 results.methodTitle(*point), numberText(point->h),
                                 point->key.text()));
 }
@@ -110,7 +110,7 @@ std::string methodTable(const StudyResults& results) {
       const StudyPoint& best = *row.best;
       html += orderCell(row.order);
       for (const std::string& text :
-           {numberText(best.errors.error), numberText(best.h), secondsText(best.wall),
+           {numberText(best.errors.error), numberText(best.h), secondsText(best.cost()),
             numberText(best.worst.residual), numberText(best.worst.overlap),
             numberText(best.worst.energyDrift), numberText(best.worst.momentumDrift)}) {
         html += "<td class=\"number\">" + text + "</td>";
@@ -128,9 +128,10 @@ std::string pointRow(const StudyResults& results, const StudyPoint& point) {
   for (const std::string& text :
        {numberText(point.h), numberText(point.errors.error), numberText(point.errors.last),
         numberText(point.worst.residual), numberText(point.worst.overlap),
-        numberText(point.worst.energyDrift), secondsText(point.wall), secondsText(point.wallMedian),
-        fmt::format("{:.0f} %", 100 * point.wallSpread), fmt::format("{}", point.repeats),
-        numberText(point.evaluations), numberText(point.restarts), numberText(point.fallbacks)}) {
+        numberText(point.worst.energyDrift), secondsText(point.cost()), secondsText(point.wall),
+        secondsText(point.wallMedian), fmt::format("{:.0f} %", 100 * point.wallSpread),
+        fmt::format("{}", point.repeats), numberText(point.evaluations), numberText(point.restarts),
+        numberText(point.fallbacks)}) {
     html += "<td class=\"number\">" + text + "</td>";
   }
   return html + "<td class=\"quiet\">" + escapeHtml(point.message) + "</td></tr>\n";
@@ -140,7 +141,8 @@ std::string pointTable(const StudyResults& results) {
   std::string html =
       "<details><summary>All points</summary>\n<table><tr><th>method</th><th>steps</th><th></th>"
       "<th>h, s</th><th>error</th><th>at the end</th><th>joints, m</th><th>overlap, m</th>"
-      "<th>energy</th><th>time per s</th><th>median</th><th>spread</th><th>repeats</th>"
+      "<th>energy</th><th>time per "
+      "s</th><th>wall</th><th>median</th><th>spread</th><th>repeats</th>"
       "<th>evaluations per s</th><th>restarts per s</th><th>fallbacks per s</th><th></th></tr>\n";
   for (const StudyPoint& point : results.points) html += pointRow(results, point);
   return html + "</table></details>\n";

@@ -58,7 +58,7 @@ void addShot(const StudyResults& results, const StudyPoint* point, const std::st
       {"shots/" + name + ".png",
        fmt::format("{}: {}, {}, error {} {}, {} per s", why, results.methodTitle(*point),
                    key.text(), numberText(point->errors.error), results.study.unit,
-                   secondsText(point->wall)),
+                   secondsText(point->cost())),
        key});
 }
 

@@ -24,21 +24,22 @@ void judge(const StudyResults& results, CheapestRow& row) {
   const CheapestRow::PeerPoint* best = nullptr;
   for (const CheapestRow::PeerPoint& peer : row.peers) {
     const bool better =
-        peer.point != nullptr && (best == nullptr || peer.point->wall < best->point->wall);
+        peer.point != nullptr && (best == nullptr || peer.point->cost() < best->point->cost());
     if (better) best = &peer;
   }
   if (row.ours == nullptr && best == nullptr) {
     row.verdict = "nobody gets there";
     return;
   }
-  row.oursWins = row.ours != nullptr && (best == nullptr || row.ours->wall <= best->point->wall);
+  row.oursWins =
+      row.ours != nullptr && (best == nullptr || row.ours->cost() <= best->point->cost());
   if (best == nullptr) {
     row.verdict = row.peers.empty() ? "" : "only ours gets there";
   } else if (row.ours == nullptr) {
     row.verdict = fmt::format("only {} gets there", titleOf(results, best->method));
   } else {
-    const double ratio =
-        row.oursWins ? best->point->wall / row.ours->wall : row.ours->wall / best->point->wall;
+    const double ratio = row.oursWins ? best->point->cost() / row.ours->cost()
+                                      : row.ours->cost() / best->point->cost();
     row.verdict = row.oursWins ? fmt::format("ours takes {:.3g} times less than {}", ratio,
                                              titleOf(results, best->method))
                                : fmt::format("{} takes {:.3g} times less",
@@ -48,7 +49,7 @@ void judge(const StudyResults& results, CheapestRow& row) {
 
 std::string pointText(const StudyResults& results, const StudyPoint* point) {
   if (point == nullptr) return "not reached";
-  return fmt::format("{} per s ({}, h = {} s)", secondsText(point->wall),
+  return fmt::format("{} per s ({}, h = {} s)", secondsText(point->cost()),
                      results.methodTitle(*point), numberText(point->h));
 }
 
@@ -121,7 +122,7 @@ std::string summaryText(const StudyResults& results) {
     text += fmt::format("  {:<28} ", titleOf(results, row.method));
     if (row.best != nullptr) {
       text += fmt::format("least error {} {} for {} per s{}", numberText(row.best->errors.error),
-                          study.unit, secondsText(row.best->wall), order);
+                          study.unit, secondsText(row.best->cost()), order);
     } else {
       text += row.refusal.empty() ? "nothing that is ok" : "refused: " + row.refusal;
     }

@@ -131,6 +131,27 @@ TEST_F(Study, AMistakeInACaseIsToldAtItsPlace) {
   EXPECT_EQ(run("study accuracy pendulun").code, 2);
 }
 
+TEST_F(Study, AChoiceIsMeasuredWithAndWithoutIt) {
+  writeText(folder / "choice.toml",
+            "title = \"Gravity\"\n[with]\nlabel = \"10\"\n[without]\nlabel = \"20\"\n"
+            "set = [\"gravity.acceleration=[0,-20,0]\"]\n[[trial]]\ncase = \"./stone.toml\"\n"
+            "substeps = 2\n");
+  const Outcome outcome = run("study options ./choice.toml -o o --progress none");
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("10                       0.25 m"), std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("20                       5.5 m"), std::string::npos);
+  EXPECT_NE(readBytes(folder / "o" / "index.html").find("<td class=\"number\">22</td>"),
+            std::string::npos);
+}
+
+TEST_F(Study, AMistakeInAChoiceIsToldAtItsPlace) {
+  writeText(folder / "choice.toml", "title = \"Gravity\"\n[with]\nlabel = \"10\"\n");
+  const Outcome outcome = run("study options ./choice.toml");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.errors, "dbd: ./choice.toml:1:1: expected a table [without]\n");
+}
+
 TEST_F(Study, ListNamesCasesAndMeasuresNothing) {
   const Outcome outcome = study("--list");
   EXPECT_EQ(outcome.code, 0);
