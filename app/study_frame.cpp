@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace app {
 
@@ -122,7 +123,9 @@ std::string beginPlot(const StudyResults& results, const PlotFrame& frame, const
   text +=
       "set border 3 lw 1 lc rgb '#404040'\nset tics nomirror out scale 0.7,0.35\n"
       "set grid xtics ytics lc rgb '#ececec' lw 1 lt 1\n"
-      "set key outside right top Left reverse spacing 1.25 samplen 2 width -1 font ',10.5'\n";
+      "set lmargin at screen 0.085\nset rmargin at screen 0.58\n"
+      "set key at screen 0.645,screen 0.90 left top Left reverse spacing 1.25 samplen 2 font "
+      "',10.5'\n";
   return text + percentLines(results, frame) + failureStrip(frame);
 }
 
@@ -134,18 +137,28 @@ std::string realTimeLine(const PlotFrame&) {
 
 std::string endPlot(const std::string& name, const std::string& plot) {
   return fmt::format(
-      "set terminal svg size 900,440 font 'DejaVu Sans,11' background rgb 'white'\n"
+      "set terminal svg size 960,440 font 'DejaVu Sans,11' background rgb 'white'\n"
       "set output '{0}.svg'\n{1}unset output\n"
-      "set terminal pngcairo size 1800,880 fontscale 2 linewidth 2 pointscale 2 font 'DejaVu "
+      "set terminal pngcairo size 1920,880 fontscale 2 linewidth 2 pointscale 2 font 'DejaVu "
       "Sans,11' "
       "background rgb 'white'\n"
       "set output '{0}.png'\nreplot\nunset output\n",
       name, plot);
 }
 
+std::string superscript(std::string text) {
+  constexpr std::pair<const char*, const char*> kPowers[] = {{"^2", "²"}, {"^3", "³"}};
+  for (const auto& [plain, raised] : kPowers) {
+    for (std::size_t at = text.find(plain); at != std::string::npos; at = text.find(plain)) {
+      text.replace(at, std::strlen(plain), raised);
+    }
+  }
+  return text;
+}
+
 std::string plotText(const std::string& text) {
   std::string plain;
-  for (const char c : text) {
+  for (const char c : superscript(text)) {
     if (c == '_' || c == '^' || c == '{' || c == '}' || c == '@' || c == '&' || c == '~') {
       plain += "\\\\";
     }

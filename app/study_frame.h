@@ -26,6 +26,8 @@ std::string realTimeLine(const PlotFrame& frame);
 // Draws `plot` into NAME.svg and NAME.png.
 std::string endPlot(const std::string& name, const std::string& plot);
 
+std::string superscript(std::string text);  // "m^2" -> "m²"
+
 // Letters that gnuplot would take for marks are made plain.
 std::string plotText(const std::string& text);
 

@@ -117,12 +117,15 @@ std::optional<OrderFit> StudyResults::order(int method) const {
     if (point->isOk() && better) best = point;
   }
   if (best == nullptr) return std::nullopt;
+  const bool isSquare = study.error == scenes::StudyCase::Error::kMeanSquare;
+  const auto root = [&](double error) { return isSquare ? std::sqrt(error) : error; };
   std::vector<StepError> pairs;
   for (const StudyPoint* point : own) {
     const bool same = point->key.iterations == best->key.iterations;
-    if (point->isOk() && same) pairs.push_back({point->h, point->errors.error});
+    if (point->isOk() && same) pairs.push_back({point->h, root(point->errors.error)});
   }
-  return fitOrder(pairs, kFloor * reference.accuracy.value_or(0), kCeiling * study.scale);
+  return fitOrder(pairs, kFloor * root(reference.accuracy.value_or(0)),
+                  kCeiling * root(study.scale));
 }
 
 bool StudyResults::wasBusy() const {

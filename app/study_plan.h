@@ -39,6 +39,7 @@ struct StudyResults {
   std::string methodTitle(const StudyPoint& point) const;
 
   // Of the points with as many iterations as the best of them has; none: it does not converge.
+  // A mean square counts with its root.
   std::optional<OrderFit> order(int method) const;
   bool wasBusy() const;  // other programs took part of the machine while it was measured
 };

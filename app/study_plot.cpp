@@ -89,7 +89,7 @@ std::string markerStyle(const StudyMethod& method, double size) {
 std::string lineTitle(const StudyResults& results, int method, bool withOrder) {
   std::string title = plotText(results.study.methods[static_cast<std::size_t>(method)].title);
   const std::optional<OrderFit> fit = results.order(method);
-  if (withOrder && fit) title += fmt::format("   (order {:.2f})", fit->order);
+  if (withOrder && fit) title += fmt::format("  (order {:.2f})", fit->order);
   return title;
 }
 
@@ -119,6 +119,9 @@ void addMethods(const StudyResults& results, const PlotFrame& frame, Abscissa x,
   }
 }
 
+// Without what is in brackets: the page has it.
+std::string shortLabel(const std::string& label) { return label.substr(0, label.find(" (")); }
+
 void addPublished(const StudyResults& results, const PlotFrame& frame, bool againstTime,
                   Series& series) {
   constexpr int kTypes[] = {4, 6, 8, 10, 12, 14};
@@ -133,7 +136,8 @@ void addPublished(const StudyResults& results, const PlotFrame& frame, bool agai
         "'+' using ({:.9g}):({:.9g}) every ::::0 with points pt {} ps 1.3 lw 1.6 lc rgb '#000000' "
         "{}",
         againstTime ? *published.seconds : published.h, frame.shown(published.error), kTypes[type],
-        isNew ? "title \"published: " + plotText(published.label) + "\"" : "notitle"));
+        isNew ? fmt::format("title \"{}, published\"", plotText(shortLabel(published.label)))
+              : "notitle"));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/html.h"
+#include "app/study_frame.h"
 
 namespace app {
 
@@ -19,9 +20,10 @@ std::string referenceText(const StudyResults& results) {
   std::string text = "Reference: " + escapeHtml(results.reference.what);
   if (results.reference.accuracy) {
     text += fmt::format(", its own error about {} {}", numberText(*results.reference.accuracy),
-                        escapeHtml(results.study.unit));
+                        escapeHtml(superscript(results.study.unit)));
   }
-  text += fmt::format(". 100 % is {:g} {}.", results.study.scale, escapeHtml(results.study.unit));
+  text += fmt::format(". 100 % is {:g} {}.", results.study.scale,
+                      escapeHtml(superscript(results.study.unit)));
   if (results.study.trustedUntil) {
     text += fmt::format(
         " The motion is chaotic: trajectories are compared up to {:g} s, beyond that only "
@@ -38,10 +40,21 @@ std::string diagram(const std::string& name, const std::string& alt) {
       name, alt);
 }
 
+std::string publishedText(const StudyResults& results) {
+  std::string text;
+  for (const scenes::StudyPublished& published : results.study.published) {
+    text +=
+        fmt::format("{}{} {} at h = {} s", text.empty() ? "" : "; ", escapeHtml(published.label),
+                    numberText(published.error), numberText(published.h));
+  }
+  return text.empty() ? "" : "<p class=\"quiet\">Published by others: " + text + ".</p>\n";
+}
+
 std::string diagrams(const StudyChapter& chapter) {
   if (!chapter.plotted) return "";
   const std::string name = escapeHtml(chapter.results->study.name);
-  return diagram(name, "error against time") + diagram(name + "_h", "error against the step");
+  return diagram(name, "error against time") + diagram(name + "_h", "error against the step") +
+         publishedText(*chapter.results);
 }
 
 std::string pictures(const StudyChapter& chapter) {
