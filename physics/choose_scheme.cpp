@@ -170,8 +170,22 @@ void inspectKinds(World::Impl& w, std::vector<double>& ratio) {
   });
 }
 
+bool isLoadedNow(const World::Impl& w, const ContactPair& pair) {
+  const auto before = [](const ContactPair& p, const ContactPair& q) {
+    return p.a != q.a ? p.a < q.a : p.b < q.b;
+  };
+  const auto& pairs = w.contacts.pairs;
+  const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair, before);
+  return found != pairs.end() && found->a == pair.a && found->b == pair.b && isLoaded(*found);
+}
+
 void inspectContacts(World::Impl& w, double h) {
   Stepper& stepper = w.stepper;
+  for (const ContactPair& pair : w.contactsBefore) {
+    if (isLoaded(pair) && !isLoadedNow(w, pair)) {
+      stepper.parted[pair.a] = stepper.parted[pair.b] = true;
+    }
+  }
   const double speed = jumpSpeed(w, h);
   for (const ContactPair& pair : w.contacts.pairs) {
     if (!isLoaded(pair)) continue;
@@ -198,18 +212,18 @@ void inspect(World::Impl& w, double h) {
   const auto size = static_cast<std::size_t>(w.bodies.size());
   stepper.smooth.assign(size, true);
   stepper.bounded.assign(size, false);
+  stepper.parted.assign(size, false);
   std::vector<double> ratio(size, 0.0);
   inspectKinds(w, ratio);
   inspectContacts(w, h);
   for (std::size_t i = 0; i < size; ++i) stepper.unresolved[i] = !(ratio[i] <= kResolved);
-  stepper.unresolved[kWorldBody] = stepper.bounded[kWorldBody] = false;
-  stepper.smooth[kWorldBody] = true;
   for (int i = 0; i < w.bodies.size(); ++i) {
     if (isMovable(w.bodies, i)) continue;
-    stepper.unresolved[i] = stepper.bounded[i] = false;
+    stepper.unresolved[i] = stepper.bounded[i] = stepper.parted[i] = false;
     stepper.smooth[i] = true;
   }
   findIslands(w);
+  shareWithinIslands(w, stepper.parted, true);
   shareWithinIslands(w, stepper.smooth, false);
   shareWithinIslands(w, stepper.unresolved, true);
   shareWithinIslands(w, stepper.bounded, true);
@@ -247,7 +261,7 @@ bool lowerSchemes(World::Impl& w, double h) {
   const std::vector<Scheme> tried = w.bodies.second.scheme;
   for (int i = 0; i < w.bodies.size(); ++i) {
     Allowed& allowed = stepper.allowed[i];
-    allowed.bdf2 = allowed.bdf2 && stepper.smooth[i];
+    allowed.bdf2 = allowed.bdf2 && stepper.smooth[i] && !stepper.parted[i];
     allowed.symmetric = allowed.symmetric && stepper.smooth[i] && !stepper.unresolved[i] &&
                         !stepper.bounded[i];
   }
