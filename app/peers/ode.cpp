@@ -200,7 +200,7 @@ class OdePeer : public Peer {
 
   // ODE's friction is a pyramid, which is right along its first axis: so that goes along the slip.
   void turnPyramid(dContact& contact, BodyId a, BodyId b) const {
-    constexpr double kSlips = 1e-6;  // m/s
+    constexpr double kSlips = 0.01;  // m/s: at rest there is no slip to go by
     const Vec3 n = fromOde(contact.geom.normal);
     const Vec3 v = speedAt(a, contact.geom.pos) - speedAt(b, contact.geom.pos);
     const Vec3 slip = v - v.dot(n) * n;
