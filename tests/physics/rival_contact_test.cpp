@@ -149,6 +149,21 @@ TEST_P(RivalContact, ABallBouncesToTheHeightOfItsRestitution) {
   EXPECT_NEAR(highest, 0.64, 0.05);
 }
 
+// kappa is the scene's to choose: a tenth of the stiffness gives way by ten times as much.
+TEST(Penalty, SinksInInverseProportionToItsStiffness) {
+  const auto overlap = [](double kappa) {
+    Settings s;
+    s.method = Method::kPenalty;
+    s.substeps = 8;
+    s.penaltyStiffness = kappa;
+    World world = planeWith(s, 0, 0.5);
+    addBox(world, Vec3(1, 0.5, 1), 0);
+    for (int k = 0; k < 240; ++k) world.step();
+    return world.largestOverlap();
+  };
+  EXPECT_NEAR(overlap(100) / overlap(1000), 10, 0.1);
+}
+
 TEST_P(RivalContact, TheSameSceneGivesTheSameBytes) {
   const auto hash = [&] {
     World world = planeWith(settings(60, 4), 0.1, 0.4);
