@@ -144,9 +144,13 @@ void addPublished(const StudyResults& results, const PlotFrame& frame, bool agai
 // Slopes of first and second order, from the lower middle of the diagram to its right.
 std::string slopeGuides(const PlotFrame& frame) {
   std::string text;
-  const double width = std::log10(frame.highX / frame.lowX), y = 1.4 * frame.lowY;
-  const double from = frame.highX * std::pow(10, -0.42 * width),
-               to = frame.highX * std::pow(10, -0.15 * width);
+  const double width = std::log10(frame.highX / frame.lowX);
+  const double height = std::log10(frame.topY / frame.lowY);
+  const double right = -0.15 * width;  // decades from highX
+  // Room for two words, and within the diagram.
+  const double span = std::min(0.4 * height, std::clamp(0.07 * height, 0.27 * width, 0.8 * width));
+  const double from = frame.highX * std::pow(10, right - span);
+  const double to = frame.highX * std::pow(10, right), y = 1.4 * frame.lowY;
   for (const int order : {1, 2}) {
     const double end = y * std::pow(to / from, order);
     text += fmt::format(

@@ -16,9 +16,9 @@ double metricOf(const char* name, const Sample& sample) {
   return std::abs(findMetric(name)->scene(sample));
 }
 
-// NaN counts as the worst.
+// NaN counts as the worst, and stays.
 void keepLargest(double value, double& largest) {
-  if (!(value <= largest)) largest = value;
+  if (!(value <= largest) && !std::isnan(largest)) largest = value;
 }
 
 // Whether a sample counts for a quantity.
