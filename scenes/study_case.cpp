@@ -105,9 +105,9 @@ void checkFineness(const TableReader& root, const StudyCase& study) {
   const auto product = [](int a, int b) { return static_cast<double>(a) * b; };
   double finest = 1;
   for (const StudyGrid& grid : study.grids) {
-    finest = std::max(finest, product(*std::max_element(grid.steps.begin(), grid.steps.end()),
-                                      *std::max_element(grid.substeps.begin(),
-                                                        grid.substeps.end())));
+    finest =
+        std::max(finest, product(*std::max_element(grid.steps.begin(), grid.steps.end()),
+                                 *std::max_element(grid.substeps.begin(), grid.substeps.end())));
   }
   const StudyGrid& run = study.reference.run;
   const double own = product(run.steps[0], run.substeps[0]);
@@ -141,9 +141,9 @@ StudyCase parseStudyCase(const std::string& text, const std::string& path) {
   study.name = std::filesystem::path(path).stem().string();
   const Context context{path, nullptr};
   TableReader root(tree, "", context);
-  for (const char* word : {"title", "about", "scene", "set", "duration", "fps", "quick",
-                           "trusted_until", "scale", "error", "unit", "quantity", "reference",
-                           "sweep", "published"}) {
+  for (const char* word :
+       {"title", "about", "scene", "set", "duration", "fps", "quick", "trusted_until", "scale",
+        "error", "unit", "quantity", "reference", "sweep", "published"}) {
     root.take(word);
   }
   root.finish();

@@ -22,14 +22,13 @@
 //                          # every component; value = 3.1 is law = [3.1]
 //   times = 1, plus = 0    # the reference is times * column + plus
 //   weight = 1             # of its error in the norm
-//   over = "each"          # each sample; or one number: last, max, min, mean, rms (unweighted time)
-//   from = 0, to = 10      # s, the samples that count
-//   [reference]            # for quantities without `law`; absent: they are errors themselves
-//   table = "S01_pendulum_A01.csv"       # of tests/reference, or a path from this file with a '/'
-//   time = "t"             # its column of times
-//   where = { zeta = 0.5 } # the rows that count
-//   accuracy = 1e-12       # of the table, where known; or accuracy_column = "tip_err_est"
-//   self = { set = ["simulation.stepping=symmetric"], steps = 1, substeps = 2000, iterations = 1 }
+//   over = "each"          # each sample; or one number: last, max, min, mean, rms (unweighted
+//   time) from = 0, to = 10      # s, the samples that count [reference]            # for
+//   quantities without `law`; absent: they are errors themselves table = "S01_pendulum_A01.csv" #
+//   of tests/reference, or a path from this file with a '/' time = "t"             # its column of
+//   times where = { zeta = 0.5 } # the rows that count accuracy = 1e-12       # of the table, where
+//   known; or accuracy_column = "tip_err_est" self = { set = ["simulation.stepping=symmetric"],
+//   steps = 1, substeps = 2000, iterations = 1 }
 //                          # instead of a table: a run at least 10 times finer than the finest
 //                          # point; one with half as many substeps estimates its error
 //   [sweep]                # h = 1 / (fps * steps * substeps)
@@ -80,7 +79,7 @@ struct StudyReference {
   std::optional<double> accuracy;
   std::string accuracyColumn;
   bool self = false;
-  StudyGrid run;    // of `self`: one value each
+  StudyGrid run;     // of `self`: one value each
   std::string text;  // of the table's file
 };
 

@@ -41,9 +41,9 @@ StudyMethod readMethod(TableReader& reader, const std::vector<StudyMethod>& earl
 
 std::span<const char* const> names(StudyMethod::Marker) {
   static constexpr const char* kNames[] = {
-      "circle",        "square",       "triangle",           "triangle_down", "diamond",
-      "pentagon",      "circle_open",  "square_open",        "triangle_open", "triangle_down_open",
-      "diamond_open",  "pentagon_open", "plus",              "cross",         "star"};
+      "circle",       "square",        "triangle",    "triangle_down", "diamond",
+      "pentagon",     "circle_open",   "square_open", "triangle_open", "triangle_down_open",
+      "diamond_open", "pentagon_open", "plus",        "cross",         "star"};
   return kNames;
 }
 

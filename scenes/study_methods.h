@@ -10,16 +10,28 @@ namespace scenes {
 
 struct StudyMethod {
   enum class Marker {
-    kCircle, kSquare, kTriangle, kTriangleDown, kDiamond, kPentagon,
-    kCircleOpen, kSquareOpen, kTriangleOpen, kTriangleDownOpen, kDiamondOpen, kPentagonOpen,
-    kPlus, kCross, kStar
+    kCircle,
+    kSquare,
+    kTriangle,
+    kTriangleDown,
+    kDiamond,
+    kPentagon,
+    kCircleOpen,
+    kSquareOpen,
+    kTriangleOpen,
+    kTriangleDownOpen,
+    kDiamondOpen,
+    kPentagonOpen,
+    kPlus,
+    kCross,
+    kStar
   };
   std::string name, title, about;
   std::vector<std::string> set;  // overrides that choose it
   std::string peer;              // "bullet", "ode": another engine; empty: ours
   std::string color;             // "#rrggbb"
   Marker marker = Marker::kCircle;
-  bool iterates = true;          // whether the number of iterations matters
+  bool iterates = true;  // whether the number of iterations matters
 };
 std::span<const char* const> names(StudyMethod::Marker);
 

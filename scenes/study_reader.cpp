@@ -28,7 +28,8 @@ void expectColumn(const TableReader& reader, const char* key, const ReferenceTab
 void readWhere(TableReader& reader, const ReferenceTable& table, StudyReference& reference) {
   const Value* where = reader.take("where");
   if (where == nullptr) return;
-  if (!where->isTable()) failExpected(reader.spot({"where"}), *where, "a table { column = number }");
+  if (!where->isTable())
+    failExpected(reader.spot({"where"}), *where, "a table { column = number }");
   for (const Member& member : where->members) {
     if (!member.value.isNumber()) {
       failExpected(reader.spot({"where"}), member.value, "a number");
@@ -84,8 +85,9 @@ void readSelf(TableReader& reader, StudyReference& reference) {
   one("iterations", reference.run.iterations);
   reader(Field{"set"}, reference.run.set);
   if (reference.run.steps[0] % 2 != 0 && reference.run.substeps[0] % 2 != 0) {
-    reader.failHere("expected an even number of steps or substeps: a run with half as many "
-                    "estimates the error");
+    reader.failHere(
+        "expected an even number of steps or substeps: a run with half as many "
+        "estimates the error");
   }
 }
 
@@ -120,8 +122,8 @@ void readMetricOrVector(TableReader& reader, StudyQuantity& quantity) {
   if (isWord && findMetric(word->text) == nullptr) {
     std::vector<std::string> known = metricNames();
     for (const std::string& vector : vectorMetricNames()) known.push_back(vector);
-    reader.failAt("metric", fmt::format("unknown metric '{}'{}", word->text,
-                                        didYouMean(word->text, known)));
+    reader.failAt("metric",
+                  fmt::format("unknown metric '{}'{}", word->text, didYouMean(word->text, known)));
   }
   readMetric(reader, quantity.metric, quantity.body);
 }
@@ -137,7 +139,8 @@ void readLaw(TableReader& reader, StudyQuantity& quantity) {
     reader.atMostOne("value", other);
   }
   if (!quantity.law.empty() && isOrientation(quantity)) {
-    reader.failAt("metric", "expected `columns` or a reference of its own: an orientation has no law");
+    reader.failAt("metric",
+                  "expected `columns` or a reference of its own: an orientation has no law");
   }
 }
 
