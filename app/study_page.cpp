@@ -70,7 +70,8 @@ std::string contents(const std::vector<StudyChapter>& chapters) {
 
 constexpr const char* kHowMeasured =
     "<details><summary>How this was measured</summary>\n<p>Each point simulates a whole case with "
-    "one method and one step. Its time is what the steps took, X Points were measured one after "
+    "one method and one step. Its time is what the steps took, the least of the "
+    "repeats, per simulated second; measuring is not in it. Points were measured one after "
     "the other. "
     "<em>Real time</em> is one second per simulated second: 1/60 s for a frame of 1/60 s. The "
     "error is the distance from the reference that each case names; 100 % is the case's scale. The "
