@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kLeastSlope = 0.3;
 constexpr std::size_t kLeastPoints = 3;
+constexpr std::size_t kMostPoints = 5;  // the finest: an order is what the error tends to
 
 double slope(const StepError& a, const StepError& b) {
   return std::log(b.error / a.error) / std::log(b.h / a.h);
@@ -59,7 +60,7 @@ std::optional<OrderFit> fitOrder(std::vector<StepError> points, double floor, do
     if (i + 1 - begin > best.size()) best = std::span(points).subspan(begin, i + 1 - begin);
   }
   if (best.size() < kLeastPoints) return std::nullopt;
-  return leastSquares(best);
+  return leastSquares(best.first(std::min(best.size(), kMostPoints)));
 }
 
 const StudyPoint* cheapest(std::span<const StudyPoint* const> points, double error) {
