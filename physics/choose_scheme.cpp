@@ -15,9 +15,7 @@ namespace {
 // 2T/(m l)): this bound on h^2 K/m leaves a half.
 constexpr double kResolved = 1;
 
-bool isMovable(const Bodies& bodies, BodyId body) {
-  return bodies.motion[body] != Motion::kStatic;
-}
+bool isMovable(const Bodies& bodies, BodyId body) { return bodies.motion[body] != Motion::kStatic; }
 
 BodyId rootOf(std::vector<BodyId>& island, BodyId body) {
   while (island[body] != body) body = island[body] = island[island[body]];
@@ -144,7 +142,8 @@ void addStiffness(const C& item, const Multipliers<C>& lambda, const Evaluated<C
 bool asksForStiffness(const World::Impl& w) {
   const std::vector<Scheme>& scheme = w.bodies.second.scheme;
   return w.settings.stepping == Stepping::kSymmetric ||
-         std::any_of(scheme.begin(), scheme.end(), [](Scheme s) { return s == Scheme::kSymmetric; });
+         std::any_of(scheme.begin(), scheme.end(),
+                     [](Scheme s) { return s == Scheme::kSymmetric; });
 }
 
 // What the solve found: who is held by limits, whose velocities jump at one, and who is too stiff.
@@ -262,8 +261,8 @@ bool lowerSchemes(World::Impl& w, double h) {
   for (int i = 0; i < w.bodies.size(); ++i) {
     Allowed& allowed = stepper.allowed[i];
     allowed.bdf2 = allowed.bdf2 && stepper.smooth[i] && !stepper.parted[i];
-    allowed.symmetric = allowed.symmetric && stepper.smooth[i] && !stepper.unresolved[i] &&
-                        !stepper.bounded[i];
+    allowed.symmetric =
+        allowed.symmetric && stepper.smooth[i] && !stepper.unresolved[i] && !stepper.bounded[i];
   }
   settleSchemes(w);
   return w.bodies.second.scheme != tried;
@@ -281,8 +280,11 @@ void freeBounced(World::Impl& w) {
   shareWithinIslands(w, stepper.bounded, false);
 }
 
-void recordSchemes(World::Impl& w, StepReport& report) {
+void recordSchemes(World::Impl& w, const std::vector<bool>& jumped, StepReport& report) {
   freeBounced(w);
+  for (std::size_t i = 0; i < jumped.size(); ++i) {
+    if (jumped[i]) w.stepper.smooth[i] = false;
+  }
   const bool wantsBdf2 = w.settings.stepping == Stepping::kBdf2;
   for (int i = 0; i < w.bodies.size(); ++i) {
     if (w.bodies.motion[i] != Motion::kDynamic) continue;

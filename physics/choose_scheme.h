@@ -15,6 +15,7 @@ void chooseSchemes(World::Impl& world);
 bool lowerSchemes(World::Impl& world, double h);
 
 // At the end of a substep: what the next one needs to know, and what is counted.
-void recordSchemes(World::Impl& world, StepReport& report);
+// `jumped`: bodies whose velocities a bounce changed; may be empty.
+void recordSchemes(World::Impl& world, const std::vector<bool>& jumped, StepReport& report);
 
 }  // namespace physics

@@ -125,8 +125,9 @@ void finish(World::Impl& w, double h, StepReport& report) {
   } else {
     finishVelocities(w.bodies, h);  // (43)-(46)
   }
-  if (restitution > 0) restitute(w.contacts, w.bodies, restitution, w.flight(h));
-  if (isSecondOrder(w.settings)) recordSchemes(w, report);
+  std::vector<bool> jumped;
+  if (restitution > 0) jumped = restitute(w.contacts, w.bodies, restitution, w.flight(h));
+  if (isSecondOrder(w.settings)) recordSchemes(w, jumped, report);
 }
 
 // A whole substep of a rival, from contacts found as for the other methods.

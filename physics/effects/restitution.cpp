@@ -66,8 +66,13 @@ Vec3 acceleration(const Bodies& bodies, const FreeFlight& flight, BodyId body) {
   return flight.gravity.value_or(Vec3::Zero()) + bodies.inverse[body].m * flight.loads[body].force;
 }
 
-// v_i and tau of one point; nothing where the flight does not close the gap in this substep.
+// v_i and tau of one point; nothing where the flight does not close the gap in this substep. One
+// that only just touches at the end, without an impulse, hits then.
 void fly(const ContactPointState& p, double a, double dt, double& speed, double& left) {
+  if (p.normalTotal <= 0) {  // it only just touches at the end, and hits then
+    speed = std::min(p.approach, 0.0);
+    return;
+  }
   const double start = p.approach - dt * a;  // before the substep's own acceleration
   const double gap = p.loaded ? 0 : std::max(p.gapAtStart, 0.0);
   const double squared = start * start - 2 * a * gap;
@@ -106,8 +111,7 @@ std::vector<Impact> impactsOf(const Contacts& contacts, const Bodies& bodies,
   return impacts;
 }
 
-// Marks what an impact can reach, pairs that share a moving body with one that was reached, and
-// tells the bodies.
+// Marks pairs that share a moving body with one that an impact reaches; tells the bodies.
 std::vector<bool> spread(std::vector<Impact>& impacts, const Bodies& bodies) {
   std::vector<bool> reached(bodies.pose.size(), false);
   const auto moves = [&](BodyId body) { return bodies.motion[body] == Motion::kDynamic; };
@@ -269,24 +273,29 @@ void strikeInTurn(std::vector<Impact>& impacts, Bodies& bodies, double restituti
 
 }  // namespace
 
-void restitute(const Contacts& contacts, Bodies& bodies, double restitution,
-               const FreeFlight& flight) {
+std::vector<bool> restitute(const Contacts& contacts, Bodies& bodies, double restitution,
+                            const FreeFlight& flight) {
   const double threshold =
       std::max(flight.gravity ? 2 * flight.dt * flight.gravity->norm() : 0.0, kSlowest);
   std::vector<Impact> impacts = impactsOf(contacts, bodies, flight, threshold);
-  if (std::none_of(impacts.begin(), impacts.end(), [](auto& i) { return i.bounces; })) return;
+  if (std::none_of(impacts.begin(), impacts.end(), [](auto& i) { return i.bounces; })) return {};
   const std::vector<Given> given = givenBy(impacts, bodies);
+  std::vector<bool> jumped(bodies.pose.size(), false);
   for (Impact& impact : impacts) {
     const int k = impact.bounces ? alone(impact, given, bodies, flight) : -1;
     impact.over = k >= 0 && strikeAlone(impact, k, given, bodies, restitution, threshold, flight);
+    if (impact.over) jumped[impact.pair->a] = jumped[impact.pair->b] = true;
   }
   std::erase_if(impacts, [](const Impact& impact) { return impact.over; });
   const std::vector<bool> reached = spread(impacts, bodies);
   std::erase_if(impacts, [](const Impact& impact) { return !impact.met; });
   for (BodyId body = 0; body < bodies.size(); ++body) {
-    if (reached[body]) undo(given[body], bodies, body, flight);
+    if (!reached[body]) continue;
+    undo(given[body], bodies, body, flight);
+    jumped[body] = true;
   }
   strikeInTurn(impacts, bodies, restitution, threshold);
+  return jumped;
 }
 
 }  // namespace physics

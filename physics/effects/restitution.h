@@ -28,7 +28,8 @@ struct FreeFlight {
 
 // After the velocities are known. Contacts slower than twice what gravity gives in a substep do not
 // bounce: that keeps resting ones from buzzing.
-void restitute(const Contacts& contacts, Bodies& bodies, double restitution,
-               const FreeFlight& flight);
+// Tells the bodies whose velocities jumped; empty: none did.
+std::vector<bool> restitute(const Contacts& contacts, Bodies& bodies, double restitution,
+                            const FreeFlight& flight);
 
 }  // namespace physics
