@@ -247,7 +247,7 @@ void flyOn(const Impact& impact, int k, double gap, Bodies& bodies) {
   displace(bodies.pose[pair.b], -mb * part * lever.n, -turn * lever.wb);
 }
 
-// A hit that nothing else meets: exact in time.
+// Exact in time.
 bool strikeAlone(Impact& impact, int k, const std::vector<Given>& given, Bodies& bodies,
                  double restitution, double threshold, const FreeFlight& flight) {
   const ContactPair& pair = *impact.pair;
@@ -260,7 +260,6 @@ bool strikeAlone(Impact& impact, int k, const std::vector<Given>& given, Bodies&
   return true;
 }
 
-// Pairs hit one another in turn until none approaches.
 void strikeInTurn(std::vector<Impact>& impacts, Bodies& bodies, double restitution,
                   double threshold) {
   bool struck = !impacts.empty();
