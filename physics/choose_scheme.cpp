@@ -46,8 +46,9 @@ void findIslands(World::Impl& w) {
     }
   });
   for (const ContactPair& pair : w.contacts.pairs) {
-    if (isLoaded(pair)) join(w.bodies, island, pair.a, pair.b);
+    if (isLoaded(pair) || pair.met) join(w.bodies, island, pair.a, pair.b);
   }
+  for (const auto& [a, b] : w.stepper.lost) join(w.bodies, island, a, b);
   for (const SoftContact& c : w.softContacts) {
     if (c.normalTotal == 0) continue;
     join(w.bodies, island, c.from, c.to);
@@ -169,25 +170,31 @@ void inspectKinds(World::Impl& w, std::vector<double>& ratio) {
   });
 }
 
-bool isLoadedNow(const World::Impl& w, const ContactPair& pair) {
-  const auto before = [](const ContactPair& p, const ContactPair& q) {
-    return p.a != q.a ? p.a < q.a : p.b < q.b;
+bool isLoadedNow(const World::Impl& w, BodyId a, BodyId b) {
+  const auto before = [](const ContactPair& pair, const std::array<BodyId, 2>& wanted) {
+    return std::array{pair.a, pair.b} < wanted;
   };
   const auto& pairs = w.contacts.pairs;
-  const auto found = std::lower_bound(pairs.begin(), pairs.end(), pair, before);
-  return found != pairs.end() && found->a == pair.a && found->b == pair.b && isLoaded(*found);
+  const auto found = std::lower_bound(pairs.begin(), pairs.end(), std::array{a, b}, before);
+  return found != pairs.end() && found->a == a && found->b == b && isLoaded(*found);
 }
 
 void inspectContacts(World::Impl& w, double h) {
   Stepper& stepper = w.stepper;
   for (const ContactPair& pair : w.contactsBefore) {
-    if (isLoaded(pair) && !isLoadedNow(w, pair)) {
+    if (isLoaded(pair) && !isLoadedNow(w, pair.a, pair.b)) {
       stepper.parted[pair.a] = stepper.parted[pair.b] = true;
     }
   }
   const double speed = jumpSpeed(w, h);
+  for (const auto& [a, b] : stepper.lost) {
+    if (!isLoadedNow(w, a, b)) stepper.smooth[a] = stepper.smooth[b] = false;
+  }
   for (const ContactPair& pair : w.contacts.pairs) {
-    if (!isLoaded(pair)) continue;
+    if (!isLoaded(pair)) {
+      if (pair.met) stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
+      continue;
+    }
     stepper.bounded[pair.a] = stepper.bounded[pair.b] = true;
     if (jumps(pair, speed)) stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
   }
@@ -266,6 +273,11 @@ bool lowerSchemes(World::Impl& w, double h) {
   }
   settleSchemes(w);
   return w.bodies.second.scheme != tried;
+}
+
+void stepByPaper(World::Impl& w) {
+  for (Allowed& allowed : w.stepper.allowed) allowed = {};
+  settleSchemes(w);
 }
 
 // Bodies that a bounce has parted are free again.

@@ -14,6 +14,9 @@ void chooseSchemes(World::Impl& world);
 // After the solve: true where the substep has to be made anew, with schemes already lowered.
 bool lowerSchemes(World::Impl& world, double h);
 
+// The paper's scheme for everything, which no contact that is found late can make wrong.
+void stepByPaper(World::Impl& world);
+
 // At the end of a substep: what the next one needs to know, and what is counted.
 // `jumped`: bodies whose velocities a bounce changed; may be empty.
 void recordSchemes(World::Impl& world, const std::vector<bool>& jumped, StepReport& report);

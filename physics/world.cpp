@@ -62,11 +62,20 @@ void solveOnce(World::Impl& w, double h, StepReport& report) {
   }
 }
 
+// Contacts that moved something and may not be found again.
+void keepLost(World::Impl& w) {
+  if (!isSecondOrder(w.settings)) return;
+  for (const ContactPair& pair : w.contacts.pairs) {
+    if (pair.met) w.stepper.lost.push_back({pair.a, pair.b});
+  }
+}
+
 void solveConstraints(World::Impl& w, double h, StepReport& report) {
   solveOnce(w, h, report);
   // A body that was hit may have left the bounds in which contacts were looked for: look where it
   // went.
   for (int look = 1; look < kMostLooks && !report.notFinite && contactsOutdated(w); ++look) {
+    keepLost(w);
     findContacts(w, w.bodies.pose);
     for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
     solveOnce(w, h, report);
@@ -87,6 +96,7 @@ void checkFinite(const World::Impl& w, StepReport& report) {
 // From X^t, v^t to the displaced poses, by the schemes as they stand.
 void displaceAll(World::Impl& w, int k, double h, StepReport& report) {
   if (isSecondOrder(w.settings)) {
+    w.stepper.lost.clear();
     moveFreelySecondOrder(w.bodies, w.loads, w.settings.gravity, h);
   } else {
     moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)
@@ -103,13 +113,14 @@ void displaceAll(World::Impl& w, int k, double h, StepReport& report) {
   solveConstraints(w, h, report);  // Delta X (52),(53)
 }
 
-// A scheme that the solve does not bear out is lowered, twice at the most, and the substep made
-// anew.
+// A scheme that the solve does not bear out is lowered and the substep made anew; the third time
+// everything steps by the paper's.
 void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
   chooseSchemes(w);
   w.contactsBefore = w.contacts.pairs;
   displaceAll(w, k, h, report);
-  for (int again = 0; again < 2 && !report.notFinite && lowerSchemes(w, h); ++again) {
+  for (int again = 0; again < 3 && !report.notFinite && lowerSchemes(w, h); ++again) {
+    if (again == 2) stepByPaper(w);
     rewind(w.bodies);
     w.contacts.pairs = w.contactsBefore;
     displaceAll(w, k, h, report);

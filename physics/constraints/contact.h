@@ -46,7 +46,8 @@ struct ContactPair {
   bool carried = false;         // the normal turns with body b (its face); else fixed in the world
   Vec3 normal = Vec3::UnitY();  // body frame of b when carried, else world
   Friction friction;
-  double step = 0;  // that the multipliers belong to, with second-order steppings [s]
+  double step = 0;   // that the multipliers belong to, with second-order steppings [s]
+  bool met = false;  // it moved its bodies in this substep, if only to and fro
   int count = 0;
   std::array<ContactPointState, Manifold::kMaxPoints> points;
 };
@@ -67,7 +68,7 @@ void measureStart(ContactPair& pair, const Bodies& bodies);
 void prepare(ContactPair& pair, Bodies& bodies, bool warm);
 
 // Applies every point's `extra`.
-void push(const ContactPair& pair, Bodies& bodies);
+void push(ContactPair& pair, Bodies& bodies);
 
 // One visit. `allowance` [m] is how much overlap that existed at the start may be resolved in this
 // substep. Returns false when a change is not finite.

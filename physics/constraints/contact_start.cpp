@@ -56,6 +56,7 @@ void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
   for (int k = 0; k < pair.count; ++k) pair.points[k].slip = slipLeft(pair.points[k], n, a, b);
   measureStart(pair, bodies);
   const double rescaled = rescale(pair, bodies);
+  pair.met = false;
   for (int k = 0; k < pair.count; ++k) {
     ContactPointState& p = pair.points[k];
     p.normalTotal *= rescaled;
@@ -72,7 +73,7 @@ void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
   push(pair, bodies);
 }
 
-void push(const ContactPair& pair, Bodies& bodies) {
+void push(ContactPair& pair, Bodies& bodies) {
   const Pose &a = bodies.start[pair.a], &b = bodies.start[pair.b];
   Vec3 impulse = Vec3::Zero(), torqueA = Vec3::Zero(), torqueB = Vec3::Zero();
   for (int k = 0; k < pair.count; ++k) {
@@ -83,6 +84,7 @@ void push(const ContactPair& pair, Bodies& bodies) {
     torqueB += (armA + a.x - b.x).cross(p.extra);
   }
   if (impulse.isZero(0)) return;
+  pair.met = true;
   const InverseMass &ma = bodies.inverse[pair.a], &mb = bodies.inverse[pair.b];
   bodies.shift[pair.a] += ma.m * impulse;
   bodies.shift[pair.b] -= mb.m * impulse;

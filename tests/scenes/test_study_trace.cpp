@@ -55,7 +55,7 @@ TEST(StudyErrors, ANumberOverTheRunIsComparedOnce) {
 
 TEST(StudyErrors, OppositeQuaternionsAreTheSameOrientation) {
   StudyCase study = caseOf("orientation");
-  study.quantities[0].body = "b";
+  study.quantities[0].body.assign(1, 'b');
   const double a = 0.5e-9;  // half an angle too small for acos
   const QuantitySamples samples(4, {-std::cos(a), -std::sin(a), 0, 0});
   const StudyTrace self = traceOf(QuantitySamples(4, {1, 0, 0, 0}));
