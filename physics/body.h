@@ -50,27 +50,27 @@ enum class Scheme : std::uint8_t { kPaper, kBdf2, kSymmetric };
 
 // The substep before this one, as `bdf2` needs it.
 struct History {
-  Vec3 dx = Vec3::Zero(), dtheta = Vec3::Zero();    // X^{t-1} -> X^t, without corrections
-  Vec3 velocity = Vec3::Zero();                     // v^{t-1} [m/s]
-  Vec3 angularMomentum = Vec3::Zero();              // L^{t-1} about the centre, world [kg m^2/s]
-  bool smooth = false;                              // no velocity jumped in it
+  Vec3 dx = Vec3::Zero(), dtheta = Vec3::Zero();  // X^{t-1} -> X^t, without corrections
+  Vec3 velocity = Vec3::Zero();                   // v^{t-1} [m/s]
+  Vec3 angularMomentum = Vec3::Zero();            // L^{t-1} about the centre, world [kg m^2/s]
+  bool smooth = false;                            // no velocity jumped in it
 };
 
 // What bodies carry for the second-order steppings; empty where all step by the paper's scheme.
 struct SecondOrder {
   std::vector<Scheme> scheme;
-  std::vector<double> step;     // the h of backward Euler that the body's substep amounts to [s]
+  std::vector<double> step;  // the h of backward Euler that the body's substep amounts to [s]
   std::vector<History> history;
-  std::vector<Pose> origin;     // X^t; Bodies::start is where backward Euler would have started
-  std::vector<Pose> before;     // X^{t-1} where a body steps by bdf2, else `origin`
-  std::vector<Pose> middle;     // scratch of the symmetric scheme's forces
-  std::vector<Velocity> velocity;   // v^t
+  std::vector<Pose> origin;        // X^t; Bodies::start is where backward Euler would have started
+  std::vector<Pose> before;        // X^{t-1} where a body steps by bdf2, else `origin`
+  std::vector<Pose> middle;        // scratch of the symmetric scheme's forces
+  std::vector<Velocity> velocity;  // v^t
   std::vector<Vec3> angularMomentum;  // L^t
-  std::vector<Vec3> target;     // angular momentum of the substep without constraints, world
-  std::vector<Vec3> twist;      // sum of J_theta^T lambda, world, in the units of lambda
-  std::vector<Vec3> jointTwist;  // the same of the joints that the direct method solves
+  std::vector<Vec3> target;           // angular momentum of the substep without constraints, world
+  std::vector<Vec3> twist;            // sum of J_theta^T lambda, world, in the units of lambda
+  std::vector<Vec3> jointTwist;       // the same of the joints that the direct method solves
   std::vector<Correction> kick;  // of forces, symmetric scheme: M^-1 P and T, applied once more
-  double h = 0;                 // the substep [s]
+  double h = 0;                  // the substep [s]
 
   bool empty() const { return scheme.empty(); }
 };

@@ -33,7 +33,7 @@ bool isLoaded(const ContactPair& pair) {
                      [](const ContactPointState& p) { return p.normalTotal > 0; });
 }
 
-// Joined bodies, and those whose contact bears load at this moment.
+// Joined bodies, and those that a contact moves in this substep.
 void findIslands(World::Impl& w) {
   std::vector<BodyId>& island = w.stepper.island;
   for (int i = 0; i < w.bodies.size(); ++i) island[i] = i;
@@ -46,9 +46,9 @@ void findIslands(World::Impl& w) {
     }
   });
   for (const ContactPair& pair : w.contacts.pairs) {
-    if (isLoaded(pair) || pair.met) join(w.bodies, island, pair.a, pair.b);
+    if (!pair.given.isZero(0)) join(w.bodies, island, pair.a, pair.b);
   }
-  for (const auto& [a, b] : w.stepper.lost) join(w.bodies, island, a, b);
+  for (const Meeting& meeting : w.stepper.lost) join(w.bodies, island, meeting.a, meeting.b);
   for (const SoftContact& c : w.softContacts) {
     if (c.normalTotal == 0) continue;
     join(w.bodies, island, c.from, c.to);
@@ -170,31 +170,47 @@ void inspectKinds(World::Impl& w, std::vector<double>& ratio) {
   });
 }
 
-bool isLoadedNow(const World::Impl& w, BodyId a, BodyId b) {
+const ContactPair* findPair(const std::vector<ContactPair>& pairs, BodyId a, BodyId b) {
   const auto before = [](const ContactPair& pair, const std::array<BodyId, 2>& wanted) {
     return std::array{pair.a, pair.b} < wanted;
   };
-  const auto& pairs = w.contacts.pairs;
   const auto found = std::lower_bound(pairs.begin(), pairs.end(), std::array{a, b}, before);
-  return found != pairs.end() && found->a == a && found->b == b && isLoaded(*found);
+  return found != pairs.end() && found->a == a && found->b == b ? &*found : nullptr;
+}
+
+double speedOf(const World::Impl& w, const ContactPair* pair) {
+  return pair == nullptr ? 0 : meetingOf(w, *pair).speed;
+}
+
+// Contacts whose impulse is more than twice, or less than half, that of the last substep: impacts,
+// on what touched before as well, and what lets go. Smaller ones than gravity's do not count.
+void compareContacts(World::Impl& w, double least) {
+  Stepper& stepper = w.stepper;
+  for (const ContactPair& pair : w.contacts.pairs) {
+    const double now = meetingOf(w, pair).speed;
+    if (!(now > least) || now <= 2 * speedOf(w, findPair(w.contactsBefore, pair.a, pair.b)))
+      continue;
+    stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
+  }
+  for (const ContactPair& pair : w.contactsBefore) {
+    const double before = meetingOf(w, pair).speed;
+    if (!(before > least) || 2 * speedOf(w, findPair(w.contacts.pairs, pair.a, pair.b)) >= before) {
+      continue;
+    }
+    stepper.parted[pair.a] = stepper.parted[pair.b] = true;
+  }
+  for (const Meeting& meeting : stepper.lost) {
+    if (!(meeting.speed > least) || findPair(w.contacts.pairs, meeting.a, meeting.b)) continue;
+    stepper.smooth[meeting.a] = stepper.smooth[meeting.b] = false;
+  }
 }
 
 void inspectContacts(World::Impl& w, double h) {
   Stepper& stepper = w.stepper;
-  for (const ContactPair& pair : w.contactsBefore) {
-    if (isLoaded(pair) && !isLoadedNow(w, pair.a, pair.b)) {
-      stepper.parted[pair.a] = stepper.parted[pair.b] = true;
-    }
-  }
   const double speed = jumpSpeed(w, h);
-  for (const auto& [a, b] : stepper.lost) {
-    if (!isLoadedNow(w, a, b)) stepper.smooth[a] = stepper.smooth[b] = false;
-  }
+  compareContacts(w, speed);
   for (const ContactPair& pair : w.contacts.pairs) {
-    if (!isLoaded(pair)) {
-      if (pair.met) stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
-      continue;
-    }
+    if (!isLoaded(pair)) continue;
     stepper.bounded[pair.a] = stepper.bounded[pair.b] = true;
     if (jumps(pair, speed)) stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
   }
@@ -273,6 +289,12 @@ bool lowerSchemes(World::Impl& w, double h) {
   }
   settleSchemes(w);
   return w.bodies.second.scheme != tried;
+}
+
+Meeting meetingOf(const World::Impl& w, const ContactPair& pair) {
+  const double inverseMass = w.bodies.inverse[pair.a].m + w.bodies.inverse[pair.b].m;
+  const double speed = pair.step > 0 ? inverseMass * pair.given.norm() / pair.step : 0;
+  return {pair.a, pair.b, speed};
 }
 
 void stepByPaper(World::Impl& w) {

@@ -14,6 +14,9 @@ void chooseSchemes(World::Impl& world);
 // After the solve: true where the substep has to be made anew, with schemes already lowered.
 bool lowerSchemes(World::Impl& world, double h);
 
+// What a contact did to its bodies in this substep.
+Meeting meetingOf(const World::Impl& world, const ContactPair& pair);
+
 // The paper's scheme for everything, which no contact that is found late can make wrong.
 void stepByPaper(World::Impl& world);
 

@@ -25,8 +25,8 @@ struct Configuration {
   std::span<const Pose> origin{}, before{}, end{};
 };
 
-// What c, a function of the poses, has changed by since the start; over dt it is the rate of c. Of a
-// curved c the second-order steppings may not take c(now) - c(start): that rate is off by O(dt).
+// What c, a function of the poses, has changed by since the start; over dt it is the rate of c. Of
+// a curved c the second-order steppings may not take c(now) - c(start): that rate is off by O(dt).
 template <class F>
 auto changeSinceStart(const Configuration& x, F&& c) {
   using Value = decltype(c(x.now));

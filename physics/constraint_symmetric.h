@@ -10,8 +10,7 @@
 namespace physics {
 
 inline Pose middleOf(const Pose& from, const Pose& to) {
-  return {0.5 * (from.x + to.x),
-          exponential(0.5 * logarithm(to.q * from.q.conjugate())) * from.q};
+  return {0.5 * (from.x + to.x), exponential(0.5 * logarithm(to.q * from.q.conjugate())) * from.q};
 }
 
 template <class C>

@@ -66,7 +66,7 @@ void solveOnce(World::Impl& w, double h, StepReport& report) {
 void keepLost(World::Impl& w) {
   if (!isSecondOrder(w.settings)) return;
   for (const ContactPair& pair : w.contacts.pairs) {
-    if (pair.met) w.stepper.lost.push_back({pair.a, pair.b});
+    if (!pair.given.isZero(0)) w.stepper.lost.push_back(meetingOf(w, pair));
   }
 }
 
@@ -116,8 +116,8 @@ void displaceAll(World::Impl& w, int k, double h, StepReport& report) {
 // A scheme that the solve does not bear out is lowered and the substep made anew; the third time
 // everything steps by the paper's.
 void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
-  chooseSchemes(w);
   w.contactsBefore = w.contacts.pairs;
+  chooseSchemes(w);
   displaceAll(w, k, h, report);
   for (int again = 0; again < 3 && !report.notFinite && lowerSchemes(w, h); ++again) {
     if (again == 2) stepByPaper(w);

@@ -11,9 +11,9 @@
 #include "physics/methods/conjugate.h"
 #include "physics/methods/joint_system.h"
 #include "physics/methods/linear_gauss_seidel.h"
-#include "physics/stepping.h"
 #include "physics/methods/penalty.h"
 #include "physics/methods/sequential_impulses.h"
+#include "physics/stepping.h"
 #include "physics/world.h"
 
 namespace physics {
@@ -34,13 +34,13 @@ struct World::Impl {
   std::vector<JointRows> jointRows;
   std::vector<Vec3> jointChange;
   std::vector<JointMotion> jointMotion;
-  double jointError = 0;    // largest that the last Newton step met [m or rad]
-  LinearSystem linear;      // the linear method only
-  Stepper stepper;          // second-order steppings only
+  double jointError = 0;                    // largest that the last Newton step met [m or rad]
+  LinearSystem linear;                      // the linear method only
+  Stepper stepper;                          // second-order steppings only
   std::vector<ContactPair> contactsBefore;  // as the substep found them; second order only
-  ImpulseSystem impulses;   // sequential impulses only
-  PenaltySystem penalty;    // penalty forces only
-  std::vector<Velocity> velocityBefore;  // free of contacts, restitution only
+  ImpulseSystem impulses;                   // sequential impulses only
+  PenaltySystem penalty;                    // penalty forces only
+  std::vector<Velocity> velocityBefore;     // free of contacts, restitution only
   std::vector<Pose> ahead;  // scratch: poses at the end of the step, as far as now is known
 
   struct Snapshot {  // the last good state

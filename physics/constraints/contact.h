@@ -46,8 +46,8 @@ struct ContactPair {
   bool carried = false;         // the normal turns with body b (its face); else fixed in the world
   Vec3 normal = Vec3::UnitY();  // body frame of b when carried, else world
   Friction friction;
-  double step = 0;   // that the multipliers belong to, with second-order steppings [s]
-  bool met = false;  // it moved its bodies in this substep, if only to and fro
+  double step = 0;            // that the multipliers belong to, with second-order steppings [s]
+  Vec3 given = Vec3::Zero();  // to a in this substep, to and fro summed up, times h^2; b: opposite
   int count = 0;
   std::array<ContactPointState, Manifold::kMaxPoints> points;
 };

@@ -245,7 +245,7 @@ double solve(ContactPair& pair, Bodies& bodies, double xi, double allowance, boo
                      once.impulse.sum() + once.turnA.sum() + once.turnB.sum();
   if (!std::isfinite(sum)) return sum - sum;
   displacePair(pair, lasting, once, visit.corrects, bodies);
-  pair.met = pair.met || !lasting.impulse.isZero(0);
+  pair.given += lasting.impulse;
   if (!bodies.second.empty()) countTwist(pair, visit, before, bodies);
   return largest;
 }

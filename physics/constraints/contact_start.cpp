@@ -56,7 +56,7 @@ void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
   for (int k = 0; k < pair.count; ++k) pair.points[k].slip = slipLeft(pair.points[k], n, a, b);
   measureStart(pair, bodies);
   const double rescaled = rescale(pair, bodies);
-  pair.met = false;
+  pair.given.setZero();
   for (int k = 0; k < pair.count; ++k) {
     ContactPointState& p = pair.points[k];
     p.normalTotal *= rescaled;
@@ -84,7 +84,7 @@ void push(ContactPair& pair, Bodies& bodies) {
     torqueB += (armA + a.x - b.x).cross(p.extra);
   }
   if (impulse.isZero(0)) return;
-  pair.met = true;
+  pair.given += impulse;
   const InverseMass &ma = bodies.inverse[pair.a], &mb = bodies.inverse[pair.b];
   bodies.shift[pair.a] += ma.m * impulse;
   bodies.shift[pair.b] -= mb.m * impulse;

@@ -46,8 +46,8 @@ void moveByBdf2(Bodies& bodies, BodyId i, const Load& load, const Vec3& gravity)
   bodies.start[i] = s.before[i] = s.origin[i];
   displace(bodies.start[i], past.dx / 3, past.dtheta / 3);
   displace(s.before[i], -past.dx, -past.dtheta);
-  velocity.v = (4 * velocity.v - past.velocity) / 3 +
-               step * (gravity + bodies.inverse[i].m * load.force);
+  velocity.v =
+      (4 * velocity.v - past.velocity) / 3 + step * (gravity + bodies.inverse[i].m * load.force);
   bodies.pose[i].x = bodies.start[i].x + step * velocity.v;
   if (!turnsByTorque(bodies, i)) return;
   s.target[i] = (4 * s.angularMomentum[i] - past.angularMomentum) / 3 + step * load.torque;
@@ -173,8 +173,7 @@ void balance(Bodies& bodies, Scheme scheme) {
 Vec3 missingTwist(const Bodies& bodies, BodyId i) {
   const SecondOrder& s = bodies.second;
   const Quat moved = exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
-  const Vec3 psi =
-      unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
+  const Vec3 psi = unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
   const Vec3 has = moved * bodies.inertia[i].cwiseProduct(moved.conjugate() * psi);
   return s.step[i] * s.target[i] + s.twist[i] - has;
 }

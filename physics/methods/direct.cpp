@@ -38,7 +38,8 @@ void forEachJoint(World::Impl& world, F&& f) {
 
 enum class Stage { kDisplacements, kVelocities };
 
-// c at the present poses; J there, or at the start of the step where the symmetric scheme displaces.
+// c at the present poses; J there, or at the start of the step where the symmetric scheme
+// displaces.
 template <class C>
 JointRows rowsOf(const C& item, const Bodies& bodies, double dt, Stage stage) {
   Row<C::kBodies, C::kRows> row;

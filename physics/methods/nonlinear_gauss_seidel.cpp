@@ -189,9 +189,8 @@ void projectVelocities(World::Impl& world) {
   for (int k = 0; k < most && change > kProjected; ++k) {
     if (isDirect(world)) projectJoints(world);
     change = 0;
-    forEachKind(world.kinds, [&](auto& kind) {
-      change = std::max(change, projectKind(kind.set, world));
-    });
+    forEachKind(world.kinds,
+                [&](auto& kind) { change = std::max(change, projectKind(kind.set, world)); });
   }
 }
 

@@ -224,13 +224,20 @@ World tetrahedron(const Settings& s) {
 }  // namespace
 
 std::vector<OrderCase> orderCases() {
-  return {{"Pendulum", pendulum},         {"ThreeLinks", threeLinks},
-          {"BallSockets", ballSockets},   {"ScalarBallSockets", scalarBallSockets},
-          {"Hinge", hinge},               {"FreeTop", freeTop},
-          {"Spring", spring},             {"VectorSpring", vectorSpring},
-          {"HardeningSpring", hardeningSpring}, {"Drive", drive},
-          {"MotorTorque", motors},        {"PointGravity", planets},
-          {"Rope", linkedRope},           {"RopeLength", wholeRope},
+  return {{"Pendulum", pendulum},
+          {"ThreeLinks", threeLinks},
+          {"BallSockets", ballSockets},
+          {"ScalarBallSockets", scalarBallSockets},
+          {"Hinge", hinge},
+          {"FreeTop", freeTop},
+          {"Spring", spring},
+          {"VectorSpring", vectorSpring},
+          {"HardeningSpring", hardeningSpring},
+          {"Drive", drive},
+          {"MotorTorque", motors},
+          {"PointGravity", planets},
+          {"Rope", linkedRope},
+          {"RopeLength", wholeRope},
           {"Tetrahedron", tetrahedron}};
 }
 

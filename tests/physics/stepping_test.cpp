@@ -12,10 +12,9 @@ namespace {
 constexpr Stepping kBoth[] = {Stepping::kBdf2, Stepping::kSymmetric};
 
 class SecondOrderStepping : public ::testing::TestWithParam<Stepping> {};
-INSTANTIATE_TEST_SUITE_P(Of, SecondOrderStepping, ::testing::ValuesIn(kBoth),
-                         [](const auto& info) {
-                           return info.param == Stepping::kBdf2 ? "Bdf2" : "Symmetric";
-                         });
+INSTANTIATE_TEST_SUITE_P(Of, SecondOrderStepping, ::testing::ValuesIn(kBoth), [](const auto& info) {
+  return info.param == Stepping::kBdf2 ? "Bdf2" : "Symmetric";
+});
 
 Settings withContact(Stepping stepping, double h, double friction, double restitution = 0) {
   Settings s;
@@ -76,7 +75,7 @@ TEST_P(SecondOrderStepping, RestsAtRest) {
   }
   EXPECT_LT((world.bodies().pose[6].x - Vec3(0, 4.5, 0)).norm(), 1e-4);
   EXPECT_LT(measure(world).kinetic, 1e-7);  // 2e-4 m/s: the tolerance of contacts over the step
-  EXPECT_EQ(restarts, 0);  // a contact that stays is no reason to forget
+  EXPECT_EQ(restarts, 0);                   // a contact that stays is no reason to forget
 }
 
 TEST_P(SecondOrderStepping, RestartsWhereVelocitiesJumpAndCountsIt) {

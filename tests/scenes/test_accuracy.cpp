@@ -87,9 +87,9 @@ TEST(Accuracy, OfBallsThatBounceWithoutLossKeepsEveryJoule) {
     for (const char* stepping : {"bdf2", "symmetric"}) {
       StudyCase study = readStudyCase("bouncing");
       const std::string fps = std::to_string(study.fps * std::stoi(steps));
-      const Scene scene = studyScene(study, std::vector<std::string>{
-                                                "simulation.fps=" + fps, "simulation.substeps=1",
-                                                std::string("simulation.stepping=") + stepping});
+      const Scene scene = studyScene(
+          study, std::vector<std::string>{"simulation.fps=" + fps, "simulation.substeps=1",
+                                          std::string("simulation.stepping=") + stepping});
       Simulation simulation(scene);
       const double start = simulation.metrics().total;
       double worst = 0;
