@@ -22,7 +22,8 @@ struct StepError {
 };
 
 // Least squares of log error against log h over the longest range in which the error falls with h
-// (local slope of at least 0.3) and lies between `floor` and `ceiling`. None: fewer than three.
+// (local slope of at least 0.3) and lies between `floor` and `ceiling`, its five finest points at
+// the most. None: fewer than three.
 std::optional<OrderFit> fitOrder(std::vector<StepError> points, double floor, double ceiling);
 
 // The ok point with the least wall time whose error is at most `error`; null: none.

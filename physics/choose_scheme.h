@@ -14,6 +14,13 @@ void chooseSchemes(World::Impl& world);
 // After the solve: true where the substep has to be made anew, with schemes already lowered.
 bool lowerSchemes(World::Impl& world, double h);
 
+// What a solve tells, body by body: Stepper's smooth, parted, bounded and unresolved.
+void inspectMotion(World::Impl& world, double h);
+bool isMovable(const Bodies& bodies, BodyId body);
+bool isLoaded(const ContactPair& pair);
+double jumpSpeed(const World::Impl& world, double h);  // what gravity gives in two substeps [m/s]
+bool jumps(const ContactPair& pair, double speed);     // it began, closing faster than that
+
 // What a contact did to its bodies in this substep.
 Meeting meetingOf(const World::Impl& world, const ContactPair& pair);
 
