@@ -16,8 +16,8 @@ struct StepReport {
   int iterations = 0;  // sweeps in all
   std::int64_t constraintEvaluations = 0;
   // Second-order steppings: substeps of single bodies that were
-  int restarts = 0;   // made without a past: at the start, and where velocities jumped
-  int fallbacks = 0;  // made by bdf2 where the symmetric scheme was asked for
+  int restarts = 0;     // made without a past: at the start, and where velocities jumped
+  int fallbacks = 0;    // made by bdf2 where the symmetric scheme was asked for
   double residual = 0;  // largest contact error that the last sweep met [m]
   struct NotFinite {
     int substep = 0;

@@ -15,8 +15,8 @@ void HardeningSpring::evaluate(const Configuration& x, Push<kBodies, kRows>& pus
   push.f[0] = -h2 * (stiffness * s + cubic * s * s * s);
   if (nuh > 0) {
     push.f[0] -= nuh * changeSinceStart(x, [&](std::span<const Pose> pose) {
-      return between(pose, bodies, anchors).norm();
-    });
+                   return between(pose, bodies, anchors).norm();
+                 });
   }
   push.k(0, 0) = h2 * (stiffness + 3 * cubic * s * s) + nuh;
   gradientAlong(dp / distance, x.now, bodies, anchors, push);

@@ -15,8 +15,8 @@ void Spring::evaluate(const Configuration& x, Push<kBodies, kRows>& push) const 
   push.f[0] = -kh2 * (distance - restLength);
   if (nuh > 0) {
     push.f[0] -= nuh * changeSinceStart(x, [&](std::span<const Pose> pose) {
-      return between(pose, bodies, anchors).norm();
-    });
+                   return between(pose, bodies, anchors).norm();
+                 });
   }
   push.k(0, 0) = kh2 + nuh;
   gradientAlong(dp / distance, x.now, bodies, anchors, push);
@@ -35,8 +35,8 @@ void VectorSpring::evaluate(const Configuration& x, Push<kBodies, kRows>& push) 
   push.f = -kh2 * push.c;
   if (nuh > 0) {
     push.f -= nuh * changeSinceStart(x, [&](std::span<const Pose> pose) -> Vec3 {
-      return between(pose, bodies, anchors);
-    });
+                return between(pose, bodies, anchors);
+              });
   }
   push.k = (kh2 + nuh) * Mat3::Identity();
   gradientOfGap(x.now, bodies, anchors, push);

@@ -16,7 +16,7 @@ constexpr double kLargestTurn = 0.2;  // rad
 void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
   Pose& pose = bodies.pose[i];
   Vec3& w = bodies.velocity[i].w;
-  if (isIsotropic(bodies.inertia[i])) {                 // the gyroscopic torque is zero
+  if (isIsotropic(bodies.inertia[i])) {               // the gyroscopic torque is zero
     w += dt * bodies.inverseInertia[i].x() * torque;  // (30)
     bodies.freeTurn[i] = dt * w;
   } else {
@@ -53,8 +53,7 @@ FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end)
   if (scale == 0) return turn;
   for (int k = 0; k < kMostIterations; ++k) {
     const Vec3 after = exponential(-dt * turn.mean) * momentum;
-    const Vec3 residual =
-        inertia.cwiseProduct(turn.mean) - ((1 - end) * momentum + end * after);
+    const Vec3 residual = inertia.cwiseProduct(turn.mean) - ((1 - end) * momentum + end * after);
     if (residual.norm() <= 4e-16 * scale || k == kMostIterations - 1) {
       turn.converged = residual.norm() <= 1e-9 * scale;
       turn.after = after.cwiseQuotient(inertia);

@@ -20,8 +20,8 @@ struct FreeTurn {
   bool converged = true;      // false: Omega is kept as it was
 };
 //
-// With `end` = 1 in place of 1/2, M' alone: I Omega_m = M', the backward Euler step, which keeps the
-// angular momentum and loses energy.
+// With `end` = 1 in place of 1/2, M' alone: I Omega_m = M', the backward Euler step, which keeps
+// the angular momentum and loses energy.
 FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end = 0.5);
 
 // External loads of a step, world frame.

@@ -19,8 +19,8 @@ struct JointRows {
   std::array<BodyId, 2> bodies{};
   int first = 0, rows = 0;
   double alpha = 0;
-  double error = 0;          // |c|
-  bool isSymmetric = false;  // J is that of the start of the step
+  double error = 0;                                     // |c|
+  bool isSymmetric = false;                             // J is that of the start of the step
   Vec3 right = Vec3::Zero();                            // -(c + alpha lambda) + J M^-1 r
   std::array<Mat3, 2> linear, angular;                  // J, one row per constraint row
   std::array<Mat3, 2> responseLinear, responseAngular;  // (M + K)^-1 J^T, one column per row

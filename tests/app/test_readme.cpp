@@ -39,7 +39,9 @@ Blocks readmeBlocks() {
     }
     if (language == "toml") {
       const auto has = [&](const char* word) { return text.find(word) != std::string::npos; };
-      (has("[[panel]]") ? blocks.figures : has("[sweep]") ? blocks.studies : blocks.scenes)
+      (has("[[panel]]") ? blocks.figures
+       : has("[sweep]") ? blocks.studies
+                        : blocks.scenes)
           .push_back(text);
     }
     language = language.empty() ? line.substr(3) : "";
