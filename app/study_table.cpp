@@ -14,6 +14,11 @@ std::string titleOf(const StudyResults& results, int method) {
   return results.study.methods[static_cast<std::size_t>(method)].title;
 }
 
+std::string becauseOf(const StudyResults& results, int method) {
+  const std::string& text = results.study.methods[static_cast<std::size_t>(method)].because;
+  return text.empty() ? "" : " (" + text + ")";
+}
+
 bool ran(const std::vector<const StudyPoint*>& points) {
   return std::any_of(points.begin(), points.end(),
                      [](const StudyPoint* point) { return point->isOk() || point->isFailure(); });
@@ -36,14 +41,16 @@ void judge(const StudyResults& results, CheapestRow& row) {
   if (best == nullptr) {
     row.verdict = row.peers.empty() ? "" : "only ours gets there";
   } else if (row.ours == nullptr) {
-    row.verdict = fmt::format("only {} gets there", titleOf(results, best->method));
+    row.verdict = fmt::format("only {} gets there{}", titleOf(results, best->method),
+                              becauseOf(results, best->method));
   } else {
     const double ratio = row.oursWins ? best->point->cost() / row.ours->cost()
                                       : row.ours->cost() / best->point->cost();
-    row.verdict = row.oursWins ? fmt::format("ours takes {:.3g} times less than {}", ratio,
-                                             titleOf(results, best->method))
-                               : fmt::format("{} takes {:.3g} times less",
-                                             titleOf(results, best->method), ratio);
+    row.verdict = row.oursWins
+                      ? fmt::format("ours takes {:.3g} times less than {}", ratio,
+                                    titleOf(results, best->method))
+                      : fmt::format("{} takes {:.3g} times less{}", titleOf(results, best->method),
+                                    ratio, becauseOf(results, best->method));
   }
 }
 
