@@ -88,8 +88,8 @@ typename Set<C>::Vector pushed(const Evaluated<C>& push,
 // and moves bodies without speeding them). False: a change was not finite.
 template <class C>
 bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
-           Bodies& bodies, double dt, Scratch<C>& s) {
-  item.evaluate(configurationOf(item, bodies, dt), s.row);
+           Bodies& bodies, const Configuration& at, Scratch<C>& s) {
+  item.evaluate(at, s.row);
   if (!s.row.active) return true;
   const auto a = resistance(item, s.row, bodies.inverse, s.response);
   const double mean = a.trace() / C::kRows;
@@ -113,6 +113,13 @@ bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& 
   displaceBodies(item, s.response, once, lasting, bodies);
   countTwist(item, s.row, lasting, bodies);
   return true;
+}
+
+// The same where the bodies may step by several schemes.
+template <class C>
+bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
+           Bodies& bodies, double dt, Scratch<C>& s) {
+  return solve(item, lambda, tuned, bodies, configurationOf(item, bodies, dt), s);
 }
 
 // Multipliers are forces times the square of the step: to those of another step.

@@ -17,27 +17,33 @@ void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId
 bool isDirect(const World::Impl& world) { return world.settings.method == Method::kDirect; }
 
 template <class C>
-bool solveOne(Set<C>& set, std::size_t k, Bodies& bodies, double dt, Scratch<C>& scratch) {
+bool solveOne(Set<C>& set, std::size_t k, Bodies& bodies, const Configuration& at,
+              Scratch<C>& scratch) {
+  if (bodies.second.empty()) {
+    return solve(set.items[k], set.lambda[k], set.tuned[k], bodies, at, scratch);
+  }
   if (isSymmetric(set.items[k], bodies)) {
     return solveSymmetric(set.items[k], set.lambda[k], set.tuned[k], bodies, scratch);
   }
-  return solve(set.items[k], set.lambda[k], set.tuned[k], bodies, dt, scratch);
+  return solve(set.items[k], set.lambda[k], set.tuned[k], bodies, at.dt, scratch);
 }
 
+// `at`: where all bodies step by the paper's scheme.
 template <class C>
-bool solveOne(Set<C>& set, std::size_t k, Bodies& bodies, double dt) {
-  if constexpr (C::kBodies == kMany) return solveOne(set, k, bodies, dt, set.scratch);
+bool solveOne(Set<C>& set, std::size_t k, Bodies& bodies, const Configuration& at) {
+  if constexpr (C::kBodies == kMany) return solveOne(set, k, bodies, at, set.scratch);
   Scratch<C> scratch;
-  return solveOne(set, k, bodies, dt, scratch);
+  return solveOne(set, k, bodies, at, scratch);
 }
 
 template <class K>
 bool sweepKind(K& kind, Bodies& bodies, double dt, bool joints, StepReport& report) {
   auto& set = kind.set;
+  const Configuration at{bodies.pose, bodies.start, dt};
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     if (!joints && isEquality(set.items[k])) continue;
     ++report.constraintEvaluations;
-    if (solveOne(set, k, bodies, dt)) continue;
+    if (solveOne(set, k, bodies, at)) continue;
     nameCulprit(report, K::kWord, k, set.items[k].bodies[0]);
     return false;
   }
