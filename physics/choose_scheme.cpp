@@ -27,10 +27,8 @@ void findIslands(World::Impl& w) {
   for (int i = 0; i < w.bodies.size(); ++i) island[i] = i;
   forEachKind(w.kinds, [&](const auto& kind) {
     for (const auto& item : kind.set.items) {
-      for (const BodyId body : item.bodies) join(w.bodies, island, item.bodies[0], body);
-      for (std::size_t b = 1; b < item.bodies.size(); ++b) {
-        join(w.bodies, island, item.bodies[b - 1], item.bodies[b]);
-      }
+      const BodyId mover = moverOf(item, w.bodies);
+      for (const BodyId body : item.bodies) join(w.bodies, island, mover, body);
     }
   });
   for (const ContactPair& pair : w.contacts.pairs) {
@@ -94,6 +92,18 @@ void inspect(World::Impl& w, double h) {
   shareWithinIslands(w, stepper.bounded, true);
 }
 
+// Bodies that a bounce has parted are free again.
+void freeBounced(World::Impl& w) {
+  if (!w.settings.contact || w.settings.contact->restitution == 0) return;
+  Stepper& stepper = w.stepper;
+  const double speed = jumpSpeed(w, w.substepLength());
+  for (const ContactPair& pair : w.contacts.pairs) {
+    if (!jumps(pair, speed)) continue;
+    stepper.bounded[stepper.island[pair.a]] = stepper.bounded[stepper.island[pair.b]] = false;
+  }
+  shareWithinIslands(w, stepper.bounded, false);
+}
+
 }  // namespace
 
 bool isSecondOrder(const Settings& settings) {
@@ -137,18 +147,6 @@ bool lowerSchemes(World::Impl& w, double h) {
 void stepByPaper(World::Impl& w) {
   for (Allowed& allowed : w.stepper.allowed) allowed = {};
   settleSchemes(w);
-}
-
-// Bodies that a bounce has parted are free again.
-void freeBounced(World::Impl& w) {
-  if (!w.settings.contact || w.settings.contact->restitution == 0) return;
-  Stepper& stepper = w.stepper;
-  const double speed = jumpSpeed(w, w.substepLength());
-  for (const ContactPair& pair : w.contacts.pairs) {
-    if (!jumps(pair, speed)) continue;
-    stepper.bounded[stepper.island[pair.a]] = stepper.bounded[stepper.island[pair.b]] = false;
-  }
-  shareWithinIslands(w, stepper.bounded, false);
 }
 
 void recordSchemes(World::Impl& w, const std::vector<bool>& jumped, StepReport& report) {

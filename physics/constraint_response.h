@@ -65,25 +65,27 @@ void displaceBodies(const C& item, const Response<C>& response, const typename S
   }
 }
 
-// The step of the bodies that a constraint joins [s]: those that joined bodies share.
+// The first of a constraint's bodies that can move; the world where none can. Joined bodies share
+// scheme and step, and this one tells them.
+template <class C>
+BodyId moverOf(const C& item, const Bodies& bodies) {
+  for (const BodyId body : item.bodies) {
+    if (bodies.motion[body] != Motion::kStatic) return body;
+  }
+  return kWorldBody;
+}
+
+// The step of the bodies that a constraint joins [s].
 template <class C>
 double stepOf(const C& item, const Bodies& bodies, double dt) {
-  if (bodies.second.empty()) return dt;
-  for (const BodyId body : item.bodies) {
-    if (bodies.motion[body] != Motion::kStatic) return bodies.second.step[body];
-  }
-  return dt;
+  const BodyId mover = bodies.second.empty() ? kWorldBody : moverOf(item, bodies);
+  return mover == kWorldBody ? dt : bodies.second.step[mover];
 }
 
 template <class C>
 bool isSymmetric(const C& item, const Bodies& bodies) {
-  if (bodies.second.empty()) return false;
-  for (const BodyId body : item.bodies) {
-    if (bodies.motion[body] != Motion::kStatic) {
-      return bodies.second.scheme[body] == Scheme::kSymmetric;
-    }
-  }
-  return false;
+  const BodyId mover = bodies.second.empty() ? kWorldBody : moverOf(item, bodies);
+  return mover != kWorldBody && bodies.second.scheme[mover] == Scheme::kSymmetric;
 }
 
 template <class C>

@@ -3,6 +3,8 @@
 
 #include <xxhash.h>
 
+#include "physics/effects/second_order.h"
+
 namespace physics {
 
 Measures measure(const World& world) {
@@ -11,8 +13,7 @@ Measures measure(const World& world) {
   for (int i = 0; i < b.size(); ++i) {
     if (b.motion[i] != Motion::kDynamic) continue;
     const Velocity& velocity = b.velocity[i];
-    const Vec3 omega = b.pose[i].q.conjugate() * velocity.w;  // body frame
-    const Vec3 spin = b.pose[i].q * b.inertia[i].cwiseProduct(omega);
+    const Vec3 spin = angularMomentum(b, i, velocity.w);
     m.kinetic += 0.5 * b.mass[i] * velocity.v.squaredNorm() + 0.5 * velocity.w.dot(spin);
     m.linearMomentum += b.mass[i] * velocity.v;
     m.angularMomentum += b.mass[i] * b.pose[i].x.cross(velocity.v) + spin;

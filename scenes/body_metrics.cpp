@@ -13,11 +13,9 @@ using physics::Pose;
 using physics::Vec3;
 using About = Metric::About;
 
-const Pose& poseOf(const Sample& s, BodyId b) { return s.simulation.world().bodies().pose[b]; }
 const physics::Velocity& velocityOf(const Sample& s, BodyId b) {
   return s.simulation.world().bodies().velocity[b];
 }
-Vec3 moved(const Sample& s, BodyId b) { return poseOf(s, b).x - s.startPoses[b].x; }
 
 double heightOf(const Sample& s, BodyId b) { return poseOf(s, b).x.y(); }
 double xOf(const Sample& s, BodyId b) { return poseOf(s, b).x.x(); }

@@ -16,9 +16,6 @@ using physics::Pose;
 using physics::Vec3;
 using About = Metric::About;
 
-const Pose& poseOf(const Sample& s, BodyId b) { return s.simulation.world().bodies().pose[b]; }
-Vec3 moved(const Sample& s, BodyId b) { return poseOf(s, b).x - s.startPoses[b].x; }
-
 double largestError(const Sample& s, std::initializer_list<const char*> kinds) {
   double largest = 0;
   for (const physics::KindError& error : s.now.errors) {

@@ -19,6 +19,13 @@ struct Sample {
   std::vector<physics::BodyId> bodies;           // those that the expectation's `body` matches
 };
 
+inline const physics::Pose& poseOf(const Sample& s, physics::BodyId b) {
+  return s.simulation.world().bodies().pose[b];
+}
+inline physics::Vec3 moved(const Sample& s, physics::BodyId b) {  // since the start [m]
+  return poseOf(s, b).x - s.startPoses[b].x;
+}
+
 struct Metric {
   const char* name;
   const char* unit;

@@ -9,10 +9,6 @@
 namespace physics {
 namespace {
 
-// Close to an end that is held the other end would have to leap, by 1/t of the gap: such contacts
-// take smaller steps, where the resistance of the link is below this share of its ends'.
-constexpr double kLeastShare = 0.05;
-
 // One direction d of the contact: M^-1 J^T of body b and A.
 struct Direction {
   Vec3 d, turn;

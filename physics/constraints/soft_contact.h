@@ -22,6 +22,10 @@ struct SoftSurfaceDef {
   Friction friction;
 };
 
+// Close to an end that is held the other end would have to leap, by 1/t of the gap: such contacts
+// take smaller steps, where the resistance of the link is below this share of its ends'.
+constexpr double kLeastShare = 0.05;
+
 struct SoftContact {
   BodyId from = 0, to = 0, body = 0;
   double along = 0;               // t

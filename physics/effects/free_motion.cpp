@@ -32,6 +32,10 @@ void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
 
 }  // namespace
 
+Quat movedOrientation(const Bodies& bodies, BodyId i) {
+  return exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
+}
+
 bool isIsotropic(const Vec3& inertia) {
   return inertia.x() == inertia.y() && inertia.y() == inertia.z();
 }
@@ -96,7 +100,7 @@ void finishVelocity(Bodies& bodies, BodyId i, double dt) {
   bodies.velocity[i].v += bodies.shift[i] / dt;  // (43)
   if (bodies.inverseInertia[i].isZero(0)) return;
   bodies.pose[i].q.normalize();
-  const Quat moved = exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
+  const Quat moved = movedOrientation(bodies, i);
   const Vec3 turn = unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
   if (isIsotropic(bodies.inertia[i])) {
     bodies.velocity[i].w = turn / dt;  // bounded by pi/h, where the sum (45) is not; paper.md

@@ -97,7 +97,7 @@ void finishBdf2(Bodies& bodies, BodyId i) {
   bodies.velocity[i].v += bodies.shift[i] / step;
   if (!turnsByTorque(bodies, i)) return;
   bodies.pose[i].q.normalize();
-  const Quat moved = exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
+  const Quat moved = movedOrientation(bodies, i);
   bodies.velocity[i].w =
       unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]) / step;
 }
@@ -172,7 +172,7 @@ void balance(Bodies& bodies, Scheme scheme) {
 
 Vec3 missingTwist(const Bodies& bodies, BodyId i) {
   const SecondOrder& s = bodies.second;
-  const Quat moved = exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
+  const Quat moved = movedOrientation(bodies, i);
   const Vec3 psi = unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
   const Vec3 has = moved * bodies.inertia[i].cwiseProduct(moved.conjugate() * psi);
   return s.step[i] * s.target[i] + s.twist[i] - has;
@@ -199,7 +199,7 @@ void remember(Bodies& bodies, const std::vector<bool>& smooth) {
     past.dx = bodies.pose[i].x - bodies.correction[i].dx - s.origin[i].x;
     past.velocity = s.velocity[i].v;
     if (!turnsByTorque(bodies, i)) continue;
-    const Quat moved = exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
+    const Quat moved = movedOrientation(bodies, i);
     past.dtheta = unwrapped(logarithm(moved * s.origin[i].q.conjugate()),
                             0.5 * s.h * (s.velocity[i].w + bodies.velocity[i].w));
     past.angularMomentum = s.angularMomentum[i];

@@ -10,10 +10,6 @@
 namespace physics {
 namespace {
 
-void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body) {
-  report.notFinite = {report.substeps, body, std::string(kind) + " " + std::to_string(index)};
-}
-
 bool isDirect(const World::Impl& world) { return world.settings.method == Method::kDirect; }
 
 template <class C>
@@ -127,6 +123,10 @@ bool onlyContacts(const World::Impl& world) {
 }
 
 }  // namespace
+
+void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body) {
+  report.notFinite = {report.substeps, body, std::string(kind) + " " + std::to_string(index)};
+}
 
 void refreshInverseMasses(World::Impl& world, double dt) {
   world.settings.spinInertia ? refreshSpinInertia(world.bodies, dt) : refreshInertia(world.bodies);

@@ -8,6 +8,9 @@
 
 namespace physics {
 
+// Tells which constraint gave a number that is not finite.
+void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body);
+
 // Inverse inertia at the present poses: of M, or of M~ where the World asks for it.
 void refreshInverseMasses(World::Impl& world, double dt);
 

@@ -31,6 +31,21 @@ void turnFaster(Bodies& bodies, int i, const Vec3& torque, double dt, Gyroscopic
   bodies.velocity[i].w = rotation * omega;
 }
 
+// Speeds of approach are those that the substep's own acceleration leads to, as restitution wants
+// them.
+void measureContacts(World::Impl& world, double dt) {
+  Bodies& bodies = world.bodies;
+  world.velocityBefore = bodies.velocity;
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies.motion[i] != Motion::kDynamic) continue;
+    const Vec3 gravity = world.settings.gravity.value_or(Vec3::Zero());
+    world.velocityBefore[i].v += dt * (gravity + bodies.inverse[i].m * world.loads[i].force);
+  }
+  std::swap(bodies.velocity, world.velocityBefore);
+  for (ContactPair& pair : world.contacts.pairs) measureStart(pair, bodies);
+  std::swap(bodies.velocity, world.velocityBefore);
+}
+
 }  // namespace
 
 bool isRival(Method method) {
@@ -48,21 +63,6 @@ void coast(World::Impl& world, double dt) {
     displace(bodies.pose[i], dt * bodies.velocity[i].v, dt * bodies.velocity[i].w);
     if (bodies.motion[i] == Motion::kDynamic) bodies.pose[i].x += fall;
   }
-}
-
-// Speeds of approach are those that the substep's own acceleration leads to, as restitution wants
-// them.
-void measureContacts(World::Impl& world, double dt) {
-  Bodies& bodies = world.bodies;
-  world.velocityBefore = bodies.velocity;
-  for (int i = 0; i < bodies.size(); ++i) {
-    if (bodies.motion[i] != Motion::kDynamic) continue;
-    const Vec3 gravity = world.settings.gravity.value_or(Vec3::Zero());
-    world.velocityBefore[i].v += dt * (gravity + bodies.inverse[i].m * world.loads[i].force);
-  }
-  std::swap(bodies.velocity, world.velocityBefore);
-  for (ContactPair& pair : world.contacts.pairs) measureStart(pair, bodies);
-  std::swap(bodies.velocity, world.velocityBefore);
 }
 
 void rivalSubstep(World::Impl& world, double dt, StepReport& report) {
@@ -111,10 +111,6 @@ void bounce(World::Impl& world, double dt) {
   const Settings& settings = world.settings;
   if (!settings.contact || settings.contact->restitution == 0) return;
   restitute(world.contacts, world.bodies, settings.contact->restitution, world.flight(dt));
-}
-
-void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body) {
-  report.notFinite = {report.substeps, body, std::string(kind) + " " + std::to_string(index)};
 }
 
 }  // namespace physics

@@ -2,6 +2,7 @@
 // X^{t+1}, v^{t+1}. The studies compare them with this project's methods on the same scenes.
 #pragma once
 
+#include "physics/methods/nonlinear_gauss_seidel.h"
 #include "physics/methods/touch.h"
 #include "physics/world_impl.h"
 
@@ -30,8 +31,6 @@ void advance(Bodies& bodies, double dt);
 
 // Restitution by the rule that all methods of this project share (restitution.h).
 void bounce(World::Impl& world, double dt);
-
-void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body);
 
 // A row that is kept from one evaluation to the next: one-sided kinds set one bound and trust that
 // the other is open.

@@ -21,10 +21,7 @@ Touch touchOf(const ContactPair& pair, int k, std::span<const Pose> pose) {
   return touch;
 }
 
-// Close to an end that is held the other end would have to leap: as in soft_contact.cpp the link's
-// share of the resistance has a floor.
 Touch touchOf(const SoftContact& contact, const Bodies& bodies) {
-  constexpr double kLeastShare = 0.05;
   const Pose& b = bodies.pose[contact.body];
   const Vec3 at = pointOf(contact, bodies.pose), n = b.q * contact.normal;
   Touch touch;
