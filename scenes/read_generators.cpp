@@ -5,11 +5,22 @@
 #include "physics/make/stack.h"
 #include "physics/make/stage.h"
 #include "scenes/read_arm.h"
+#include "scenes/palette.h"
 #include "scenes/read_body.h"
 #include "scenes/recipe.h"
 
 namespace scenes {
 namespace {
+
+// A last link that differs from the others only in its weight is told by its colour.
+void markEnd(const physics::ChainDef& def, physics::BodyId last, const std::string& name,
+             const std::optional<render::Color>& color, Built& built) {
+  built.alias(last, name + ".end");
+  const bool looksAlike = def.end && !def.end->shape;
+  if (looksAlike && !color) {
+    built.appearance.colors[last] = familyColor(Pattern::kSingle, built.families++, 0);
+  }
+}
 
 template <class Def, Pattern pattern>
 void readGenerator(TableReader& reader, Recipe& recipe) {
@@ -26,7 +37,7 @@ void readGenerator(TableReader& reader, Recipe& recipe) {
   recipe.add(reader, [=](Built& built) {
     const std::vector<physics::BodyId> bodies = physics::add(built.world, def);
     built.nameAll(bodies, name, pattern, color);
-    if constexpr (requires { def.end; }) built.alias(bodies.back(), name + ".end");
+    if constexpr (requires { def.end; }) markEnd(def, bodies.back(), name, color, built);
   });
 }
 
