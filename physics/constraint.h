@@ -116,8 +116,9 @@ struct Set {
   using Vector = typename Row<C::kBodies, C::kRows>::Vector;
   struct Tuned {
     double relaxation, regularisation;
-    bool split = false;
-    bool damps = false;  // the regularisation is in mu alone
+    bool split = false;    // what stands wrong at X^t is taken back without becoming velocity
+    bool touches = false;  // contacts may do so to its bodies
+    bool damps = false;    // the regularisation is in mu alone
   };
   std::vector<C> items;
   std::vector<Multipliers<C>> lambda;
@@ -136,6 +137,14 @@ template <class C>
 bool isEquality(const C& item) {
   if constexpr (requires { item.isEquality(); }) return item.isEquality();
   return false;
+}
+
+// Rows of the direct method: equalities, and bounds on one side while they hold.
+template <class C>
+bool isSolvedDirectly(const C& item) {
+  if constexpr (Force<C> || C::kBodies != 2) return false;
+  if constexpr (requires { item.isOneSided(); }) return isEquality(item) || item.isOneSided();
+  return isEquality(item);
 }
 
 template <class C>

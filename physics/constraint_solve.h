@@ -84,8 +84,9 @@ typename Set<C>::Vector pushed(const Evaluated<C>& push,
 }
 
 // A constraint's error is split into what the motion of this substep made (solved by `total`, which
-// lasts) and, where it is `split`, what stood at its start (solved by `once`, which is forgotten,
-// and moves bodies without speeding them). False: a change was not finite.
+// lasts) and what did not come by motion (solved by `once`, which is forgotten, and moves bodies
+// without speeding them): what contacts take back of their overlap, and, where it is `split`, what
+// stood wrong at the start. False: a change was not finite.
 template <class C>
 bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
            Bodies& bodies, const Configuration& at, Scratch<C>& s) {
@@ -100,10 +101,12 @@ bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& 
     lasting = pushed<C>(s.row, a, tuned.relaxation, lambda.total) - lambda.total;
   } else {
     Vector c = s.row.c;
-    if (tuned.split) {
+    if (tuned.split || tuned.touches) {
       const Vector standing = lambda.standing + along(item, s.row, bodies.correction);
-      once = solved(item, s.row, a, tuned, standing, lambda.once) - lambda.once;
-      c -= standing;
+      if (!standing.isZero(0) || !lambda.once.isZero(0)) {
+        once = solved(item, s.row, a, tuned, standing, lambda.once) - lambda.once;
+        c -= standing;
+      }
     }
     lasting = solved(item, s.row, a, tuned, c, lambda.total) - lambda.total;
   }

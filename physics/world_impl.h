@@ -34,7 +34,8 @@ struct World::Impl {
   std::vector<JointRows> jointRows;
   std::vector<Vec3> jointChange;
   std::vector<JointMotion> jointMotion;
-  double jointError = 0;                    // largest that the last Newton step met [m or rad]
+  double jointError = 0;                    // largest that the last Newton step met [m or rad];
+                                            // infinite while its active set changes
   LinearSystem linear;                      // the linear method only
   Stepper stepper;                          // second-order steppings only
   std::vector<ContactPair> contactsBefore;  // as the substep found them; second order only

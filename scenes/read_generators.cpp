@@ -4,8 +4,8 @@
 #include "physics/make/chain.h"
 #include "physics/make/stack.h"
 #include "physics/make/stage.h"
-#include "scenes/read_arm.h"
 #include "scenes/palette.h"
+#include "scenes/read_arm.h"
 #include "scenes/read_body.h"
 #include "scenes/recipe.h"
 

@@ -35,6 +35,7 @@ struct ConeLimit {
   std::array<Vec3, 2> axes{Vec3::UnitX(), Vec3::UnitX()};  // body frames
   double angle = 0.5;
 
+  bool isOneSided() const { return true; }
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
 };
 

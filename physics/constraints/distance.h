@@ -37,6 +37,7 @@ struct Distance {
   bool rope = false;
 
   bool isEquality() const { return !rope; }
+  bool isOneSided() const { return rope; }
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
 };
 

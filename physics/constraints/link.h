@@ -36,6 +36,7 @@ struct Link {
   bool rope = false;
 
   bool isEquality() const { return !rope && compliance == 0; }
+  bool isOneSided() const { return rope && compliance == 0; }
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
 };
 

@@ -37,6 +37,7 @@ struct SlideLimit {
   Vec3 axisI = Vec3::UnitX();                               // body frame of i
   double low = -0.5, high = 0.5;
 
+  bool isOneSided() const { return true; }
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
 };
 

@@ -38,6 +38,7 @@ struct TwistLimit {
   double low = -0.5, high = 0.5;
 
   double twist(const Configuration& x) const;  // rad
+  bool isOneSided() const { return true; }
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
 };
 

@@ -5,6 +5,7 @@
 
 #include "physics/constraint_solve.h"
 #include "physics/effects/second_order.h"
+#include "physics/methods/active_set.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
 
 namespace physics {
@@ -30,19 +31,17 @@ void forEachJoint(World::Impl& world, F&& f) {
     auto& set = kind.set;
     if constexpr (isJoint<typename std::decay_t<decltype(kind)>::Item>()) {
       for (std::size_t k = 0; k < set.items.size(); ++k) {
-        if (isEquality(set.items[k])) f(set.items[k], set.lambda[k], set.tuned[k], next++);
+        if (isSolvedDirectly(set.items[k])) f(set.items[k], set.lambda[k], set.tuned[k], next++);
       }
     }
   });
 }
 
-enum class Stage { kDisplacements, kVelocities };
-
 // c at the present poses; J there, or at the start of the step where the symmetric scheme
 // displaces.
 template <class C>
-JointRows rowsOf(const C& item, const Bodies& bodies, double dt, Stage stage) {
-  Row<C::kBodies, C::kRows> row;
+JointRows rowsOf(const C& item, const Bodies& bodies, double dt, Stage stage,
+                 Row<C::kBodies, C::kRows>& row) {
   Configuration at = configurationOf(item, bodies, dt);
   item.evaluate(at, row);
   JointRows joint;
@@ -144,7 +143,10 @@ void gather(World::Impl& world, double dt, Stage stage) {
   world.jointRows.clear();
   int first = 0;
   forEachJoint(world, [&](auto& item, auto& lambda, auto&, std::size_t) {
-    JointRows joint = rowsOf(item, world.bodies, dt, stage);
+    using C = std::decay_t<decltype(item)>;
+    Row<C::kBodies, C::kRows> row;
+    JointRows joint = rowsOf(item, world.bodies, dt, stage, row);
+    chooseActive(item, row, stage, world.bodies, lambda.total, joint);
     Vec3 total = Vec3::Zero();
     total.head(joint.rows) = lambda.total;
     load(item, joint, total, world.bodies, world.jointMotion);
@@ -213,6 +215,16 @@ double largestError(const World::Impl& world) {
   return largest;
 }
 
+// Joints that let go, or pull where they may only push: the active set is not found yet.
+bool setChanges(World::Impl& world) {
+  bool changes = false;
+  forEachJoint(world, [&](auto&, auto& lambda, auto&, std::size_t k) {
+    const JointRows& joint = world.jointRows[k];
+    changes = changes || joint.changes || joint.side * lambda.total[0] < 0;
+  });
+  return changes;
+}
+
 // One Newton step for all joints. False: the factor broke down or gave something not finite.
 bool newtonStep(World::Impl& world, double dt) {
   gather(world, dt, Stage::kDisplacements);
@@ -228,9 +240,10 @@ bool newtonStep(World::Impl& world, double dt) {
   double sum = 0;
   for (const Vec3& change : world.jointChange) sum += change.sum();
   if (!std::isfinite(sum)) return false;
-  if (!world.bodies.second.empty()) world.jointError = largestError(world);
+  world.jointError = world.bodies.second.empty() ? 0 : largestError(world);
   apply(world);
   turnSymmetric(world);
+  if (setChanges(world)) world.jointError = std::numeric_limits<double>::infinity();
   return true;
 }
 

@@ -20,6 +20,8 @@ struct JointRows {
   int first = 0, rows = 0;
   double alpha = 0;
   double error = 0;                                     // |c|
+  int side = 0;                                         // 1: lambda >= 0, -1: <= 0, 0: any
+  bool changes = false;                                 // it held, and has been let go
   bool isSymmetric = false;                             // J is that of the start of the step
   Vec3 right = Vec3::Zero();                            // -(c + alpha lambda) + J M^-1 r
   std::array<Mat3, 2> linear, angular;                  // J, one row per constraint row

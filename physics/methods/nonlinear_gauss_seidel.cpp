@@ -37,7 +37,7 @@ bool sweepKind(K& kind, Bodies& bodies, double dt, bool joints, StepReport& repo
   auto& set = kind.set;
   const Configuration at{bodies.pose, bodies.start, dt};
   for (std::size_t k = 0; k < set.items.size(); ++k) {
-    if (!joints && isEquality(set.items[k])) continue;
+    if (!joints && isSolvedDirectly(set.items[k])) continue;
     ++report.constraintEvaluations;
     if (solveOne(set, k, bodies, at)) continue;
     nameCulprit(report, K::kWord, k, set.items[k].bodies[0]);
@@ -89,7 +89,7 @@ double projectKind(Set<C>& set, World::Impl& world) {
   double change = 0;
   if constexpr (!Force<C> && canStand<C>()) {
     for (std::size_t k = 0; k < set.items.size(); ++k) {
-      if (isDirect(world) && isEquality(set.items[k])) continue;
+      if (isDirect(world) && isSolvedDirectly(set.items[k])) continue;
       if (!isSymmetric(set.items[k], world.bodies)) continue;
       Scratch<C> local;
       Scratch<C>& scratch = C::kBodies == kMany ? set.scratch : local;
@@ -138,7 +138,8 @@ void prepareConstraints(World::Impl& world, double dt) {
   forEachKind(world.kinds, [&](auto& kind) {
     auto& set = kind.set;
     for (std::size_t k = 0; k < set.items.size(); ++k) {
-      if (isDirect(world) && isEquality(set.items[k])) {  // goes on from its last multipliers
+      if (isDirect(world) && isSolvedDirectly(set.items[k])) {  // goes on from its last multipliers
+        set.lambda[k].loaded = !set.lambda[k].total.isZero(0);
         rescale(set.lambda[k], stepOf(set.items[k], world.bodies, dt));
         continue;
       }
