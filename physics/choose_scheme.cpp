@@ -6,31 +6,16 @@
 
 #include "physics/constraint_response.h"
 #include "physics/effects/second_order.h"
+#include "physics/islands.h"
 
 namespace physics {
 namespace {
 
-BodyId rootOf(std::vector<BodyId>& island, BodyId body) {
-  while (island[body] != body) body = island[body] = island[island[body]];
-  return body;
-}
-
-void join(const Bodies& bodies, std::vector<BodyId>& island, BodyId a, BodyId b) {
-  if (!isMovable(bodies, a) || !isMovable(bodies, b)) return;
-  const BodyId i = rootOf(island, a), j = rootOf(island, b);
-  island[std::max(i, j)] = std::min(i, j);
-}
-
 // Joined bodies, and those that a contact moves in this substep.
 void findIslands(World::Impl& w) {
-  std::vector<BodyId>& island = w.stepper.island;
-  for (int i = 0; i < w.bodies.size(); ++i) island[i] = i;
-  forEachKind(w.kinds, [&](const auto& kind) {
-    for (const auto& item : kind.set.items) {
-      const BodyId mover = moverOf(item, w.bodies);
-      for (const BodyId body : item.bodies) join(w.bodies, island, mover, body);
-    }
-  });
+  Islands& island = w.stepper.island;
+  const Islands& joined = jointIslands(w);
+  for (const BodyId i : w.bodies.active) island[i] = joined[i];
   for (const ContactPair& pair : w.contacts.pairs) {
     if (!pair.given.isZero(0)) join(w.bodies, island, pair.a, pair.b);
   }
@@ -40,7 +25,7 @@ void findIslands(World::Impl& w) {
     join(w.bodies, island, c.from, c.to);
     join(w.bodies, island, c.from, c.body);
   }
-  for (int i = 0; i < w.bodies.size(); ++i) island[i] = rootOf(island, i);
+  settle(island, w.bodies.active);
 }
 
 Scheme best(const World::Impl& w, const Allowed& allowed) {
@@ -53,12 +38,12 @@ Scheme best(const World::Impl& w, const Allowed& allowed) {
 void settleSchemes(World::Impl& w) {
   Stepper& stepper = w.stepper;
   std::vector<Scheme>& scheme = w.bodies.second.scheme;
-  for (int i = 0; i < w.bodies.size(); ++i) {
+  for (const BodyId i : w.bodies.active) {
     Allowed& shared = stepper.allowed[stepper.island[i]];
     shared.bdf2 = shared.bdf2 && stepper.allowed[i].bdf2;
     shared.symmetric = shared.symmetric && stepper.allowed[i].symmetric;
   }
-  for (int i = 0; i < w.bodies.size(); ++i) {
+  for (const BodyId i : w.bodies.active) {
     stepper.allowed[i] = stepper.allowed[stepper.island[i]];
     scheme[i] = best(w, stepper.allowed[i]);
   }
@@ -71,20 +56,15 @@ bool hasPast(const World::Impl& w, BodyId body) {
 // What one body of an island met, all of it met.
 void shareWithinIslands(const World::Impl& w, std::vector<bool>& flag, bool shared) {
   const std::vector<BodyId>& island = w.stepper.island;
-  for (std::size_t i = 0; i < flag.size(); ++i) {
+  for (const BodyId i : w.bodies.active) {
     if (flag[i] == shared) flag[island[i]] = shared;
   }
-  for (std::size_t i = 0; i < flag.size(); ++i) flag[i] = flag[island[i]];
+  for (const BodyId i : w.bodies.active) flag[i] = flag[island[i]];
 }
 
 void inspect(World::Impl& w, double h) {
   inspectMotion(w, h);
   Stepper& stepper = w.stepper;
-  for (int i = 0; i < w.bodies.size(); ++i) {
-    if (isMovable(w.bodies, i)) continue;
-    stepper.unresolved[i] = stepper.bounded[i] = stepper.parted[i] = false;
-    stepper.smooth[i] = true;
-  }
   findIslands(w);
   shareWithinIslands(w, stepper.parted, true);
   shareWithinIslands(w, stepper.smooth, false);
@@ -114,17 +94,16 @@ void chooseSchemes(World::Impl& w) {
   Stepper& stepper = w.stepper;
   const auto size = static_cast<std::size_t>(w.bodies.size());
   if (w.bodies.second.scheme.size() != size) {
-    makeRoom(w.bodies.second, w.bodies.size());
-    stepper.island.resize(size);
+    makeRoom(w.bodies.second, w.bodies.pose);
+    stepper.island = jointIslands(w);
     stepper.allowed.resize(size);
     stepper.unresolved.assign(size, false);
     stepper.bounded.assign(size, false);
     stepper.smooth.assign(size, true);
+    stepper.parted.assign(size, false);
   }
-  for (int i = 0; i < w.bodies.size(); ++i) {
-    const bool isFixed = !isMovable(w.bodies, i);
-    stepper.allowed[i] = {isFixed || hasPast(w, i),
-                          isFixed || (!stepper.unresolved[i] && !stepper.bounded[i])};
+  for (const BodyId i : w.bodies.active) {
+    stepper.allowed[i] = {hasPast(w, i), !stepper.unresolved[i] && !stepper.bounded[i]};
   }
   findIslands(w);
   settleSchemes(w);
@@ -133,19 +112,20 @@ void chooseSchemes(World::Impl& w) {
 bool lowerSchemes(World::Impl& w, double h) {
   inspect(w, h);
   Stepper& stepper = w.stepper;
-  const std::vector<Scheme> tried = w.bodies.second.scheme;
-  for (int i = 0; i < w.bodies.size(); ++i) {
+  const std::vector<Scheme>& scheme = w.bodies.second.scheme;
+  stepper.tried = scheme;
+  for (const BodyId i : w.bodies.active) {
     Allowed& allowed = stepper.allowed[i];
     allowed.bdf2 = allowed.bdf2 && stepper.smooth[i] && !stepper.parted[i];
     allowed.symmetric =
         allowed.symmetric && stepper.smooth[i] && !stepper.unresolved[i] && !stepper.bounded[i];
   }
   settleSchemes(w);
-  return w.bodies.second.scheme != tried;
+  return scheme != stepper.tried;
 }
 
 void stepByPaper(World::Impl& w) {
-  for (Allowed& allowed : w.stepper.allowed) allowed = {};
+  for (const BodyId i : w.bodies.active) w.stepper.allowed[i] = {};
   settleSchemes(w);
 }
 
@@ -155,7 +135,7 @@ void recordSchemes(World::Impl& w, const std::vector<bool>& jumped, StepReport& 
     if (jumped[i]) w.stepper.smooth[i] = false;
   }
   const bool wantsBdf2 = w.settings.stepping == Stepping::kBdf2;
-  for (int i = 0; i < w.bodies.size(); ++i) {
+  for (const BodyId i : w.bodies.active) {
     if (w.bodies.motion[i] != Motion::kDynamic) continue;
     const Scheme scheme = w.bodies.second.scheme[i];
     report.restarts += scheme == Scheme::kPaper || (wantsBdf2 && scheme == Scheme::kSymmetric);

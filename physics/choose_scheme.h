@@ -16,7 +16,6 @@ bool lowerSchemes(World::Impl& world, double h);
 
 // What a solve tells, body by body: Stepper's smooth, parted, bounded and unresolved.
 void inspectMotion(World::Impl& world, double h);
-bool isMovable(const Bodies& bodies, BodyId body);
 bool isLoaded(const ContactPair& pair);
 double jumpSpeed(const World::Impl& world, double h);  // what gravity gives in two substeps [m/s]
 bool jumps(const ContactPair& pair, double speed);     // it began, closing faster than that

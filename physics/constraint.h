@@ -121,7 +121,9 @@ struct Set {
     bool damps = false;    // the regularisation is in mu alone
   };
   std::vector<C> items;
+  std::vector<int> active;  // items that are solved: all, but for those of bodies that sleep
   std::vector<Multipliers<C>> lambda;
+  std::vector<Multipliers<C>> kept;  // of the start of a step that may be made anew
   std::vector<Tuned> tuned;
   Scratch<C> scratch;  // of kinds with kMany bodies
 };

@@ -67,12 +67,13 @@ bool asksForStiffness(const World::Impl& w) {
 }
 
 // What the solve found: who is held by limits, whose velocities jump at one, and who is too stiff.
-void inspectKinds(World::Impl& w, std::vector<double>& ratio) {
+void inspectKinds(World::Impl& w) {
   Stepper& stepper = w.stepper;
+  std::vector<double>& ratio = stepper.ratio;
   const bool asks = asksForStiffness(w);
   forEachKind(w.kinds, [&](auto& kind) {
     using C = typename std::decay_t<decltype(kind)>::Item;
-    for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
+    for (const int k : kind.set.active) {
       const C& item = kind.set.items[k];
       if (!asks && (Force<C> || isEquality(item))) continue;
       const Multipliers<C>& lambda = kind.set.lambda[k];
@@ -141,8 +142,6 @@ void inspectContacts(World::Impl& w, double h) {
 
 }  // namespace
 
-bool isMovable(const Bodies& bodies, BodyId body) { return bodies.motion[body] != Motion::kStatic; }
-
 bool isLoaded(const ContactPair& pair) {
   return std::any_of(pair.points.begin(), pair.points.begin() + pair.count,
                      [](const ContactPointState& p) { return p.normalTotal > 0; });
@@ -169,14 +168,15 @@ Meeting meetingOf(const World::Impl& w, const ContactPair& pair) {
 
 void inspectMotion(World::Impl& w, double h) {
   Stepper& stepper = w.stepper;
-  const auto size = static_cast<std::size_t>(w.bodies.size());
-  stepper.smooth.assign(size, true);
-  stepper.bounded.assign(size, false);
-  stepper.parted.assign(size, false);
-  std::vector<double> ratio(size, 0.0);
-  inspectKinds(w, ratio);
+  stepper.ratio.resize(w.bodies.pose.size());
+  for (const BodyId i : w.bodies.active) {
+    stepper.smooth[i] = true;
+    stepper.bounded[i] = stepper.parted[i] = false;
+    stepper.ratio[i] = 0;
+  }
+  inspectKinds(w);
   inspectContacts(w, h);
-  for (std::size_t i = 0; i < size; ++i) stepper.unresolved[i] = !(ratio[i] <= kResolved);
+  for (const BodyId i : w.bodies.active) stepper.unresolved[i] = !(stepper.ratio[i] <= kResolved);
 }
 
 }  // namespace physics

@@ -37,6 +37,9 @@ std::uint64_t stateHash(const World& world) {
     feed(b.velocity[i].v.data(), 3);
     feed(b.velocity[i].w.data(), 3);
   }
+  for (BodyId i = 0; i < b.size(); ++i) {
+    if (world.isAsleep(i)) XXH64_update(state, &i, sizeof i);
+  }
   const std::int64_t steps = world.stepCount();
   XXH64_update(state, &steps, sizeof steps);
   const std::uint64_t hash = XXH64_digest(state);

@@ -15,7 +15,7 @@ struct Measures {
 };
 Measures measure(const World& world);
 
-// 64-bit hash of every pose and velocity, bit for bit, and of the step count.
+// 64-bit hash of every pose and velocity, bit for bit, of who sleeps, and of the step count.
 std::uint64_t stateHash(const World& world);
 
 }  // namespace physics

@@ -35,6 +35,12 @@ struct ContactSettings {
   double margin = 0.02;           // gaps below this are watched at rest [m]
 };
 
+// Islands that have come to rest are left alone until something touches them. effects/sleep.h
+struct SleepSettings {
+  double speed = 1e-3;  // at rest: all of an island slower than this [m/s]
+  double time = 0.5;    // for so long [s]
+};
+
 struct Settings {
   double dt = 1.0 / 60;  // one step() [s]
   int substeps = 4;
@@ -54,6 +60,10 @@ struct Settings {
   std::optional<double> penaltyStiffness;  // kappa of the penalty methods; absent: their own
   std::optional<Vec3> gravity;             // m/s^2; absent: none
   std::optional<ContactSettings> contact;  // absent: nothing touches
+  std::optional<SleepSettings> sleep;      // absent: nothing sleeps
+  bool localSubsteps = false;     // each island as many as it needs, `substeps` at the most
+  double localTolerance = 1e-4;   // error of a joint, or overlap, that asks for more [m or rad]
+  bool leavesOut = true;          // what cannot matter is not computed; false: for comparison
 };
 
 }  // namespace physics

@@ -34,6 +34,8 @@ struct Stepper {
   std::vector<Meeting> lost;     // contacts of this substep that may not be found any more
   std::vector<bool> unresolved;  // by body: the symmetric scheme would not resolve its motion
   std::vector<bool> bounded;     // by body: it touches, or is held by a limit
+  std::vector<Scheme> tried;     // scratch: by body, before schemes were lowered
+  std::vector<double> ratio;     // scratch: by body, h^2 K/m
 };
 
 }  // namespace physics

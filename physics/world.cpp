@@ -10,6 +10,7 @@
 #include "physics/methods/direct.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
 #include "physics/methods/rival.h"
+#include "physics/presence.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -17,36 +18,26 @@ namespace {
 
 constexpr int kMostLooks = 4;  // how often contacts are looked for anew within one substep
 
-// X^t; Bodies::start is where backward Euler would have started.
-std::span<const Pose> poseAtStart(const World::Impl& w) {
-  return w.bodies.second.empty() ? w.bodies.start : w.bodies.second.origin;
-}
-
-// Manifolds for the motion from the start of the substep to `target`.
-void findContacts(World::Impl& w, std::span<const Pose> target) {
-  update(w.contacts, w.collider.find(poseAtStart(w), target, w.settings.contact->margin), w.bodies);
-}
-
 bool contactsOutdated(const World::Impl& w) {
-  return w.settings.contact && w.collider.outdated(poseAtStart(w), w.bodies.pose);
-}
-
-// Points and links are looked at anew in every substep: their planes turn quickly.
-void findSoftContacts(World::Impl& w) {
-  if (!w.settings.contact || w.softCollider.empty()) return;
-  const auto touches =
-      w.softCollider.find(poseAtStart(w), w.bodies.pose, w.settings.contact->margin);
-  startSoftContacts(touches, w.softCollider, w.bodies, w.softContacts);
+  return w.touches && w.collider.outdated(poseAtStart(w), w.bodies.pose, w.bodies.active);
 }
 
 // Where the bodies would be at the end of the whole step, so that one look serves all its substeps.
-void findContactsAhead(World::Impl& w, double remaining) {
-  w.ahead.resize(w.bodies.pose.size());
-  for (int i = 0; i < w.bodies.size(); ++i) {
+bool findContactsAhead(World::Impl& w, double remaining) {
+  for (const BodyId i : w.bodies.active) {
     w.ahead[i] = w.bodies.pose[i];
     displace(w.ahead[i], remaining * w.bodies.velocity[i].v, remaining * w.bodies.velocity[i].w);
   }
-  findContacts(w, w.ahead);
+  return findContacts(w, w.ahead);
+}
+
+// At the start of a substep, whose number is k. Local substeps have looked for the whole step.
+bool lookForContacts(World::Impl& w, int k, double h) {
+  const bool isNew = k == 0 && w.local.groups.empty();
+  if (w.touches && (isNew || contactsOutdated(w))) {
+    if (!findContactsAhead(w, w.settings.dt - (k + 1) * h)) return false;
+  }
+  return findSoftContacts(w);
 }
 
 void solveOnce(World::Impl& w, double h, StepReport& report) {
@@ -76,14 +67,15 @@ void solveConstraints(World::Impl& w, double h, StepReport& report) {
   // went.
   for (int look = 1; look < kMostLooks && !report.notFinite && contactsOutdated(w); ++look) {
     keepLost(w);
-    findContacts(w, w.bodies.pose);
+    if (!findContacts(w, w.bodies.pose)) return;
     for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
     solveOnce(w, h, report);
   }
 }
 
 void checkFinite(const World::Impl& w, StepReport& report) {
-  for (int i = 0; i < w.bodies.size() && !report.notFinite; ++i) {
+  for (const BodyId i : w.bodies.active) {
+    if (report.notFinite) return;
     const Pose& pose = w.bodies.pose[i];
     const Velocity& velocity = w.bodies.velocity[i];
     if (!std::isfinite(pose.x.sum() + pose.q.coeffs().sum() + velocity.v.sum() +
@@ -91,6 +83,11 @@ void checkFinite(const World::Impl& w, StepReport& report) {
       report.notFinite = {report.substeps, i, ""};
     }
   }
+}
+
+// False: the step ends here.
+bool goesOn(const World::Impl& w, const StepReport& report) {
+  return !report.notFinite && w.met.empty();
 }
 
 // From X^t, v^t to the displaced poses, by the schemes as they stand.
@@ -103,11 +100,7 @@ void displaceAll(World::Impl& w, int k, double h, StepReport& report) {
   }
   refreshInverseMasses(w, h);
   checkFinite(w, report);
-  if (report.notFinite) return;
-  if (w.settings.contact && (k == 0 || contactsOutdated(w))) {
-    findContactsAhead(w, w.settings.dt - (k + 1) * h);
-  }
-  findSoftContacts(w);
+  if (report.notFinite || !lookForContacts(w, k, h)) return;
   if (w.settings.method == Method::kDirect) prepareDirect(w);
   prepareConstraints(w, h);        // multipliers of the last substep, gaps and anchors at X^t
   solveConstraints(w, h, report);  // Delta X (52),(53)
@@ -119,7 +112,7 @@ void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
   w.contactsBefore = w.contacts.pairs;
   chooseSchemes(w);
   displaceAll(w, k, h, report);
-  for (int again = 0; again < 3 && !report.notFinite && lowerSchemes(w, h); ++again) {
+  for (int again = 0; again < 3 && goesOn(w, report) && lowerSchemes(w, h); ++again) {
     if (again == 2) stepByPaper(w);
     rewind(w.bodies);
     w.contacts.pairs = w.contactsBefore;
@@ -128,7 +121,7 @@ void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
 }
 
 void finish(World::Impl& w, double h, StepReport& report) {
-  const double restitution = w.settings.contact ? w.settings.contact->restitution : 0;
+  const double restitution = w.touches ? w.settings.contact->restitution : 0;
   if (restitution > 0) w.velocityBefore = w.bodies.velocity;
   if (isSecondOrder(w.settings)) {
     finishSecondOrder(w.bodies, w.loads, w.settings.gravity);
@@ -141,21 +134,64 @@ void finish(World::Impl& w, double h, StepReport& report) {
   if (isSecondOrder(w.settings)) recordSchemes(w, jumped, report);
 }
 
+void countSubstep(const World::Impl& w, StepReport& report) {
+  ++report.substeps;
+  report.work.moves += static_cast<std::int64_t>(w.bodies.active.size());
+  for (const BodyId i : w.bodies.active) report.work.turns += !w.bodies.inverseInertia[i].isZero(0);
+  report.work.gyroscopic += static_cast<std::int64_t>(
+      w.settings.leavesOut ? w.bodies.anisotropic.size() : w.bodies.active.size());
+}
+
+void countLooks(const Collider::Counts& before, const Collider::Counts& after, StepReport& report) {
+  report.work.broadPhase = after.broadPhaseCalls - before.broadPhaseCalls;
+  report.work.narrowPhase = after.narrowPhaseCalls - before.narrowPhaseCalls;
+}
+
 // A whole substep of a rival, from contacts found as for the other methods.
 void substepOfRival(World::Impl& w, int k, double h, StepReport& report) {
   coast(w, h);
-  if (w.settings.contact && (k == 0 || contactsOutdated(w))) {
-    findContactsAhead(w, w.settings.dt - (k + 1) * h);
-  }
-  findSoftContacts(w);
+  lookForContacts(w, k, h);
   rivalSubstep(w, h, report);
   checkFinite(w, report);
-  ++report.substeps;
+  countSubstep(w, report);
+}
+
+void substep(World::Impl& w, int k, double h, StepReport& report) {
+  w.substep = k;
+  const bool isStatic = w.settings.stepping == Stepping::kStatic;
+  if (isStatic) bringToRest(w.bodies);
+  if (isRival(w.settings.method)) return substepOfRival(w, k, h, report);
+  isSecondOrder(w.settings) ? displaceBySchemes(w, k, h, report) : displaceAll(w, k, h, report);
+  if (!goesOn(w, report)) return;
+  finish(w, h, report);
+  checkFinite(w, report);
+  if (isStatic) bringToRest(w.bodies);
+  countSubstep(w, report);
+}
+
+// What steps together, from the present state to the end of the step.
+void substeps(World::Impl& w, StepReport& report) {
+  report.substeps = 0;
+  const double h = w.substepLength();
+  for (int k = 0; k < w.substeps && goesOn(w, report); ++k) substep(w, k, h, report);
+}
+
+void begin(World::Impl& w) {
+  if (w.settings.contact) w.takeShapes();
+  wakeCalled(w);
+  for (const BodyId i : w.bodies.active) {
+    w.last.pose[i] = w.bodies.pose[i];
+    w.last.velocity[i] = w.bodies.velocity[i];
+  }
+  drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
+  keepStart(w);
 }
 
 void restore(World::Impl& w) {
-  w.bodies.pose = w.last.pose;
-  w.bodies.velocity = w.last.velocity;
+  for (const BodyId i : w.bodies.active) {
+    w.bodies.pose[i] = w.last.pose[i];
+    w.bodies.velocity[i] = w.last.velocity[i];
+  }
   w.contacts.pairs.clear();
   w.softContacts.clear();
   undo(w.arms);
@@ -164,33 +200,37 @@ void restore(World::Impl& w) {
   });
 }
 
+void end(World::Impl& w, StepReport& report) {
+  if (report.notFinite) {
+    restore(w);
+  } else {
+    askForSubsteps(w);
+    fallAsleep(w, report);
+  }
+  for (const BodyId i : w.loaded) w.loads[i] = {};
+  w.loaded.clear();
+  ++w.stepCount;
+}
+
 }  // namespace
 
 StepReport World::step() {
   Impl& w = *impl_;
-  const double h = w.substepLength();
-  const bool isStatic = w.settings.stepping == Stepping::kStatic;
+  const Collider::Counts before = w.collider.counts();
   StepReport report;
-  if (w.settings.contact) w.takeShapes();
-  w.last.pose = w.bodies.pose;
-  w.last.velocity = w.bodies.velocity;
-  drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
-  for (int k = 0; k < w.settings.substeps && !report.notFinite; ++k) {
-    if (isStatic) bringToRest(w.bodies);
-    if (isRival(w.settings.method)) {
-      substepOfRival(w, k, h, report);
-      continue;
+  begin(w);
+  do {
+    takeGroups(w);
+    if (w.local.groups.empty()) substeps(w, report);
+    for (Group& group : w.local.groups) {
+      enter(w, group);
+      if (goesOn(w, report)) substeps(w, report);
+      leave(w, group);
     }
-    isSecondOrder(w.settings) ? displaceBySchemes(w, k, h, report) : displaceAll(w, k, h, report);
-    if (report.notFinite) break;
-    finish(w, h, report);
-    checkFinite(w, report);
-    ++report.substeps;
-  }
-  if (isStatic) bringToRest(w.bodies);
-  if (report.notFinite) restore(w);
-  w.loads.assign(w.loads.size(), Load{});
-  ++w.stepCount;
+    leaveGroups(w);
+  } while (includeMet(w, report));
+  end(w, report);
+  countLooks(before, w.collider.counts(), report);
   return report;
 }
 

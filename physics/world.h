@@ -105,6 +105,9 @@ class World {
   std::vector<ArmReport> arms() const;
   double largestOverlap() const;  // m, over the contacts at the present poses; >= 0
   int contactCount() const;       // points that carry an impulse
+  std::vector<EffectMemory> memory() const;  // what is held now, "bodies" first
+  bool isAsleep(BodyId body) const;
+  int substepsOf(BodyId body) const;  // in the last step, with local substeps; else settings().substeps
   double springEnergy() const;    // J, of every force that has a potential
   double gradientError() const;  // largest difference of a gradient from central differences of its
                                  // error, relative to the gradient's largest entry (self-check)

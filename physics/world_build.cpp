@@ -54,7 +54,15 @@ World::World(const Settings& settings) : impl_(std::make_unique<Impl>()) {
     require(settings.contact->margin >= 0 && settings.contact->maxSeparationSpeed > 0,
             "contact margin must be >= 0 and its separation speed > 0");
   }
+  if (settings.sleep) {
+    require(settings.sleep->speed >= 0 && std::isfinite(settings.sleep->speed) &&
+                settings.sleep->time > 0 && std::isfinite(settings.sleep->time),
+            "sleep needs a speed >= 0 and a time > 0");
+  }
+  require(settings.localTolerance > 0, "the tolerance of local substeps must be > 0");
   impl_->settings = settings;
+  impl_->substeps = settings.substeps;
+  impl_->bodies.general = !settings.leavesOut;
   BodyDef world;
   world.motion = Motion::kStatic;
   add(world);
@@ -70,6 +78,7 @@ BodyId World::add(const BodyDef& def) {
   const Friction friction = def.friction.value_or(standard);
   checkBody(def);
   checkFriction(friction);
+  require(def.substeps >= 1, "a body's substeps must be at least 1");
   Bodies& b = w.bodies;
   const BodyId id = b.size();
   const bool dynamic = def.motion == Motion::kDynamic;
@@ -91,8 +100,15 @@ BodyId World::add(const BodyDef& def) {
   b.freeTurn.push_back(Vec3::Zero());
   b.shape.push_back(def.shape);
   b.friction.push_back(friction);
+  if (def.motion != Motion::kStatic) b.active.push_back(id);
   if (inverse.x() != inverse.y() || inverse.y() != inverse.z()) b.anisotropic.push_back(id);
   w.loads.emplace_back();
+  w.last.pose.push_back(b.pose.back());
+  w.last.velocity.push_back(b.velocity.back());
+  w.ahead.push_back(b.pose.back());
+  w.joined.clear();
+  w.attached.clear();
+  if (w.settings.localSubsteps) w.local.asked.push_back(def.substeps);
   b.isSoft.push_back(false);
   return id;
 }
@@ -121,6 +137,13 @@ void World::Impl::takeShapes() {
     if (!bodies.isSoft[body]) collider.add(body, bodies.shape[body], isMovable);
     softCollider.addBody(body, bodies.shape[body]);
   }
+  touches = collider.canTouch() || (!settings.leavesOut && collider.hasShapes());
+  if (!touches) return collider.forgetShapes();
+  std::vector<BodyId> still;
+  for (BodyId body = kWorldBody + 1; body < bodies.size(); ++body) {
+    if (bodies.motion[body] == Motion::kStatic) still.push_back(body);
+  }
+  collider.rest(still, bodies.pose);
 }
 
 void World::ignoreCollision(BodyId a, BodyId b) { impl_->ignore(a, b); }

@@ -33,8 +33,11 @@ void checkOrientation(const Quat& q) {
 template <class C, class D>
 int append(World::Impl& w, const D& def, const C& item) {
   int index = -1;
+  w.joined.clear();
+  w.attached.clear();
   forEachKind(w.kinds, [&](auto& kind) {
     if constexpr (std::is_same_v<typename std::decay_t<decltype(kind)>::Item, C>) {
+      kind.set.active.push_back(static_cast<int>(kind.set.items.size()));
       kind.set.items.push_back(item);
       kind.set.lambda.emplace_back();
       kind.set.tuned.push_back({def.tuning.relaxation.value_or(w.settings.relaxation),

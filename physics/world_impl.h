@@ -6,6 +6,8 @@
 #include "physics/constraints/soft_contact.h"
 #include "physics/effects/free_motion.h"
 #include "physics/effects/restitution.h"
+#include "physics/effects/sleep.h"
+#include "physics/groups.h"
 #include "physics/kinds.h"
 #include "physics/kinematics/driven_arm.h"
 #include "physics/methods/conjugate.h"
@@ -23,6 +25,7 @@ struct World::Impl {
   std::int64_t stepCount = 0;
   Bodies bodies;
   std::vector<Load> loads;  // for the next step, cleared after it
+  std::vector<BodyId> loaded;  // those that have one
   Kinds kinds;
   std::vector<DrivenArm> arms;
   Collider collider;
@@ -43,23 +46,39 @@ struct World::Impl {
   PenaltySystem penalty;                    // penalty forces only
   std::vector<Velocity> velocityBefore;     // free of contacts, restitution only
   std::vector<Pose> ahead;  // scratch: poses at the end of the step, as far as now is known
+  Islands joined;           // by constraints; empty: not known yet
+  std::vector<bool> attached;  // by body: a constraint holds or pushes it; empty: not known yet
+  Sleep sleep;              // where bodies may
+  Local local;              // local substeps only
+  int substeps = 1;         // of what now steps
+  int substep = 0;          // the present one
+  std::vector<char> present;  // by body, filled where some are left out: of the present substep
+  std::vector<std::array<BodyId, 2>> met;  // with the second left out: the step is made anew
 
   struct Snapshot {  // the last good state
     std::vector<Pose> pose;
     std::vector<Velocity> velocity;
   } last;
 
+  struct {  // the start of a step that may be made anew
+    std::vector<ContactPair> contacts;
+    std::vector<History> history;
+    std::vector<bool> unresolved, bounded;
+  } kept;
+
   bool hasShapes = false;
+  bool touches = false;  // something can
   // Before contacts are first looked for, when it is known which points a soft surface touches for.
   void takeShapes();
-  FreeFlight flight(double dt) const;  // what restitution takes for granted, from velocityBefore
+  FreeFlight flight(double dt);  // what restitution takes for granted, from velocityBefore
 
   void ignore(BodyId a, BodyId b) {
+    if (!settings.contact) return;
     collider.ignore(a, b);
     softCollider.ignore(a, b);
     softCollider.ignore(b, a);
   }
-  double substepLength() const { return settings.dt / settings.substeps; }
+  double substepLength() const { return settings.dt / substeps; }
 };
 
 }  // namespace physics

@@ -3,24 +3,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "physics/constraint_error.h"
 #include "physics/effects/second_order.h"
 #include "physics/world_impl.h"
 
 namespace physics {
 namespace {
-
-template <class C>
-double sizeOfError(const C& item, const World::Impl& w) {
-  if constexpr (requires { item.relativeError(w.bodies.pose); }) {
-    return item.relativeError(w.bodies.pose);
-  }
-  Row<C::kBodies, C::kRows> row;
-  item.evaluate({w.bodies.pose, w.bodies.start, w.substepLength()}, row);
-  const double size = row.c.norm();
-  if (std::isfinite(row.high) && row.high <= 0) return std::max(row.c[0], 0.0);  // c <= 0 holds
-  if (std::isfinite(row.low) && row.low >= 0) return std::max(-row.c[0], 0.0);   // c >= 0 holds
-  return size;
-}
 
 template <class K, class C>
 JointReport reportOf(const C& item, const World::Impl& w) {
@@ -55,6 +43,13 @@ void addPieces(const C& item, const World::Impl& w, std::vector<JointReport>& re
   }
 }
 
+// Those of bodies that sleep come last.
+template <class F>
+void forEachPair(const World::Impl& w, F&& f) {
+  for (const ContactPair& pair : w.contacts.pairs) f(pair);
+  for (const ContactPair& pair : w.sleep.contacts) f(pair);
+}
+
 }  // namespace
 
 const Settings& World::settings() const { return impl_->settings; }
@@ -64,12 +59,15 @@ int World::bodyCount() const { return impl_->bodies.size(); }
 
 void World::setVelocity(BodyId body, const Velocity& velocity) {
   require(body > 0 && body < bodyCount(), "no such body");
+  callAwake(*impl_, body);
   impl_->bodies.velocity[body] = velocity;
   forgetPast(impl_->bodies.second, body);
 }
 
 void World::applyForce(BodyId body, const Vec3& force, const Vec3& torque) {
   require(body > 0 && body < bodyCount(), "no such body");
+  callAwake(*impl_, body);
+  impl_->loaded.push_back(body);
   impl_->loads[body].force += force;
   impl_->loads[body].torque += torque;
 }
@@ -79,7 +77,10 @@ void World::setDriveTarget(int drive, const Quat& target) {
   require(drive >= 0 && drive < static_cast<int>(items.size()), "no such drive");
   require(target.coeffs().allFinite() && target.norm() > 1e-6,
           "a drive's target must be a finite quaternion, not zero");
-  items[drive].target = target.normalized();
+  const Quat next = target.normalized();
+  if (next.coeffs() == items[drive].target.coeffs()) return;
+  for (const BodyId body : items[drive].bodies) callAwake(*impl_, body);
+  items[drive].target = next;
 }
 
 Vec3 World::driveError(int drive) const {
@@ -116,8 +117,8 @@ std::vector<KindError> World::constraintErrors() const {
 std::vector<ContactReport> World::contacts() const {
   std::vector<ContactReport> reports;
   const auto& pose = impl_->bodies.pose;
-  const double h = impl_->substepLength();
-  for (const ContactPair& pair : impl_->contacts.pairs) {
+  forEachPair(*impl_, [&](const ContactPair& pair) {
+    const double h = impl_->settings.dt / substepsOf(std::max(pair.a, pair.b));
     const Vec3 n = normalOf(pair, pose);
     for (int k = 0; k < pair.count; ++k) {
       const ContactPointState& p = pair.points[k];
@@ -126,9 +127,10 @@ std::vector<ContactReport> World::contacts() const {
       const Vec3 impulse = (p.normalTotal * n + p.frictionTotal) / h;
       reports.push_back({pair.a, pair.b, pointOf(pair, k, pose), n, gap, impulse});
     }
-  }
+  });
   for (const SoftContact& c : impl_->softContacts) {
     const Vec3 n = pose[c.body].q * c.normal;
+    const double h = impl_->settings.dt / substepsOf(c.from);
     reports.push_back({c.from, c.body, pointOf(c, pose) - c.radius * n, n, gapOf(c, pose),
                        (c.normalTotal * n + c.frictionTotal) / h});
   }
@@ -162,11 +164,11 @@ std::vector<VolumeReport> World::volumes() const {
 
 double World::largestOverlap() const {
   double largest = 0;
-  for (const ContactPair& pair : impl_->contacts.pairs) {
+  forEachPair(*impl_, [&](const ContactPair& pair) {
     for (int k = 0; k < pair.count; ++k) {
       largest = std::max(largest, -gapOf(pair, k, impl_->bodies.pose));
     }
-  }
+  });
   for (const SoftContact& contact : impl_->softContacts) {
     largest = std::max(largest, -gapOf(contact, impl_->bodies.pose));
   }
@@ -175,9 +177,9 @@ double World::largestOverlap() const {
 
 int World::contactCount() const {
   int count = 0;
-  for (const ContactPair& pair : impl_->contacts.pairs) {
+  forEachPair(*impl_, [&](const ContactPair& pair) {
     for (int k = 0; k < pair.count; ++k) count += pair.points[k].normalTotal > 0;
-  }
+  });
   for (const SoftContact& contact : impl_->softContacts) count += contact.normalTotal > 0;
   return count;
 }

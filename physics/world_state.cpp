@@ -17,17 +17,35 @@ void forget(World::Impl& w) {
   w.contacts = {};
   w.softContacts.clear();
   w.loads.assign(w.loads.size(), Load{});
+  w.loaded.clear();
   forEachKind(w.kinds, [](auto& kind) {
     for (auto& lambda : kind.set.lambda) lambda = {};
   });
 }
 
+// Bodies that rest in the collider may have been moved as well.
+void takeStaticPoses(World::Impl& w) {
+  if (!w.touches) return;
+  std::vector<BodyId> still;
+  for (BodyId i = kWorldBody + 1; i < w.bodies.size(); ++i) {
+    if (!isMovable(w.bodies, i)) still.push_back(i);
+  }
+  w.collider.wake(still);
+  w.collider.rest(still, w.bodies.pose);
+}
+
+void wakeAll(World::Impl& w) {
+  for (BodyId i = kWorldBody + 1; i < w.bodies.size(); ++i) callAwake(w, i);
+  wakeCalled(w);
+}
+
 void findContactsHere(World::Impl& w) {
   if (!w.settings.contact) return;
   w.takeShapes();
+  takeStaticPoses(w);
   const auto& pose = w.bodies.pose;
   const double margin = w.settings.contact->margin;
-  update(w.contacts, w.collider.find(pose, pose, margin), w.bodies);
+  if (w.touches) update(w.contacts, w.collider.find(pose, pose, margin), w.bodies);
   if (w.softCollider.empty()) return;
   startSoftContacts(w.softCollider.find(pose, pose, margin), w.softCollider, w.bodies,
                     w.softContacts);
@@ -35,14 +53,16 @@ void findContactsHere(World::Impl& w) {
 
 }  // namespace
 
-FreeFlight World::Impl::flight(double dt) const {
-  FreeFlight flight{settings.gravity, loads, velocityBefore, {}, dt};
-  flight.attached.assign(bodies.pose.size(), false);
-  forEachKind(kinds, [&](const auto& kind) {
-    for (const auto& item : kind.set.items) {
-      for (const BodyId body : item.bodies) flight.attached[body] = true;
-    }
-  });
+FreeFlight World::Impl::flight(double dt) {
+  if (attached.empty()) {
+    attached.assign(bodies.pose.size(), false);
+    forEachKind(kinds, [&](const auto& kind) {
+      for (const auto& item : kind.set.items) {
+        for (const BodyId body : item.bodies) attached[body] = true;
+      }
+    });
+  }
+  FreeFlight flight{settings.gravity, loads, velocityBefore, attached, dt};
   for (const SoftContact& contact : softContacts) flight.attached[contact.body] = true;
   return flight;
 }
@@ -55,6 +75,7 @@ bool World::setState(std::span<const Pose> poses, std::span<const Velocity> velo
   for (std::size_t i = 0; i < count; ++i) {
     if (!isFinite(poses[i], velocities[i])) return false;
   }
+  wakeAll(*impl_);
   for (BodyId i = kWorldBody + 1; i < b.size(); ++i) {
     b.pose[i] = poses[i];
     if (poses[i].q.squaredNorm() != 1) b.pose[i].q.normalize();
@@ -64,7 +85,8 @@ bool World::setState(std::span<const Pose> poses, std::span<const Velocity> velo
     b.freeTurn[i].setZero();
     forgetPast(b.second, i);
   }
-  b.start = b.pose;
+  b.start = impl_->ahead = impl_->last.pose = b.pose;
+  if (!b.second.empty()) b.second.origin = b.second.before = b.pose;
   refreshInertia(b);
   forget(*impl_);
   findContactsHere(*impl_);

@@ -73,6 +73,7 @@ void readBody(TableReader& reader, Recipe& recipe) {
   const std::string name =
       readName(reader, fmt::format("body.{}", recipe.trial().world.bodyCount() - 1));
   physics::BodyDef def;
+  reader(Field{"substeps", Unit::kNone, false, 1, 1e6}, def.substeps);
   PlacedShape placed{def.shape, {}};
   if (const Value* shape = reader.take("shape")) {
     placed = readShape(*shape, reader.spot(Field{"shape"}));

@@ -27,7 +27,7 @@ void readHead(TableReader& root, Scene& scene) {
 
 // Every word there is, so that a misspelt table is reported before what it lacks is missed.
 void checkWords(TableReader& root) {
-  for (const char* word : {"title", "description", "duration", "simulation", "gravity", "contact",
+  for (const char* word : {"title", "description", "duration", "simulation", "gravity", "contact", "sleep",
                            "camera", "overlays", "golden", "expect"}) {
     root.take(word);
   }
@@ -85,6 +85,7 @@ std::vector<std::string> effectsOf(const Value& root, const Scene& scene) {
   if (scene.settings.contact && scene.settings.contact->restitution > 0) {
     effects.emplace_back("restitution");
   }
+  if (scene.settings.sleep) effects.emplace_back("sleep");
   return effects;
 }
 

@@ -1,4 +1,4 @@
-// [simulation] [gravity] [contact] [camera] [overlays] [golden] [[expect]].
+// [simulation] [gravity] [contact] [sleep] [camera] [overlays] [golden] [[expect]].
 #include "scenes/settings_reader.h"
 
 #include <fmt/format.h>
@@ -40,6 +40,9 @@ void readSimulation(TableReader& reader, Scene& scene) {
   reader(Field{"regularisation", Unit::kNone, false, 0, 1e6}, settings.regularisation);
   reader(Field{"warm_start"}, settings.warmStart);
   reader(Field{"warm_start_joints"}, settings.warmStartJoints);
+  reader(Field{"local_substeps"}, settings.localSubsteps);
+  reader(Field{"local_tolerance", Unit::kMetre, false, kPositive}, settings.localTolerance);
+  reader(Field{"leave_out"}, settings.leavesOut);
   reader(Field{"seed"}, scene.seed);
   settings.method = static_cast<physics::Method>(readWord(reader, "method", kMethods, 0));
   settings.stepping = static_cast<physics::Stepping>(readWord(reader, "stepping", kSteppings, 0));
@@ -59,6 +62,16 @@ void readContact(TableReader& reader, physics::Settings& settings) {
   reader(Field{"margin", Unit::kMetre, false, 0}, contact.margin);
   settings.contact.reset();
   if (enabled) settings.contact = contact;
+}
+
+void readSleep(TableReader& reader, physics::Settings& settings) {
+  physics::SleepSettings sleep;
+  bool enabled = true;
+  reader(Field{"enabled"}, enabled);
+  reader(Field{"speed", Unit::kNone, false, 0}, sleep.speed);
+  reader(Field{"time", Unit::kNone, false, kPositive}, sleep.time);
+  settings.sleep.reset();
+  if (enabled) settings.sleep = sleep;
 }
 
 // A plane, or a body or generator with friction of its own: such a scene means contacts.
@@ -201,6 +214,7 @@ void readSettings(TableReader& root, Scene& scene) {
   });
   if (asksForContact(root.table())) scene.settings.contact.emplace();
   readTable(root, "contact", [&](TableReader& reader) { readContact(reader, scene.settings); });
+  readTable(root, "sleep", [&](TableReader& reader) { readSleep(reader, scene.settings); });
 }
 
 void readPresentation(TableReader& root, Scene& scene) {

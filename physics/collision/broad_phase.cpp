@@ -56,6 +56,13 @@ void BroadPhase::add(const Bounds& bounds, bool small) {
   impl_->items.push_back(std::move(item));
 }
 
+std::size_t BroadPhase::bytes() const {
+  using Node = fcl::detail::NodeBase<fcl::AABBd>;  // a binary tree has two for each leaf
+  const std::size_t each = sizeof(Impl::Item) + sizeof(fcl::Boxd) + sizeof(fcl::CollisionObjectd);
+  return sizeof(Impl) + impl_->items.size() * (each + 2 * sizeof(Node)) +
+         (impl_->movedLarge.capacity() + impl_->movedSmall.capacity()) * sizeof(void*);
+}
+
 void BroadPhase::update(std::span<const int> moved, std::span<const Bounds> bounds,
                         std::vector<std::array<int, 2>>& found) {
   impl_->movedLarge.clear();

@@ -27,6 +27,8 @@ class BroadPhase {
   void update(std::span<const int> moved, std::span<const Bounds> bounds,
               std::vector<std::array<int, 2>>& found);
 
+  std::size_t bytes() const;  // held now, the tree's nodes included
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -115,33 +115,55 @@ struct Collider::Impl {
   }
 };
 
-Collider::Collider() : impl_(std::make_unique<Impl>()) {}
+Collider::Collider() = default;
 Collider::~Collider() = default;
 Collider::Collider(Collider&&) noexcept = default;
 Collider& Collider::operator=(Collider&&) noexcept = default;
 
-void Collider::add(BodyId body, const Shape& shape, bool movable) {
-  impl_->pairs.add(body, shape, movable);
+Collider::Impl& Collider::held() {
+  if (!impl_) impl_ = std::make_unique<Impl>();
+  return *impl_;
 }
 
-void Collider::ignore(BodyId a, BodyId b) { impl_->pairs.ignore(a, b); }
+void Collider::add(BodyId body, const Shape& shape, bool movable) {
+  held().pairs.add(body, shape, movable);
+}
+
+void Collider::ignore(BodyId a, BodyId b) { held().pairs.ignore(a, b); }
 std::span<const std::pair<BodyId, BodyId>> Collider::ignored() const {
+  if (!impl_) return {};
   return impl_->pairs.ignored();
 }
 
 std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<const Pose> end,
                                          double margin) {
   require(margin >= 0, "collider: margin must not be negative");
+  if (!impl_) return {};
   impl_->pairs.update(start, end, margin);
   impl_->lookAtAll({start, end, margin});
   return impl_->manifolds;
 }
 
-bool Collider::outdated(std::span<const Pose> start, std::span<const Pose> end) const {
-  return impl_->pairs.outdated(start, end);
+bool Collider::outdated(std::span<const Pose> start, std::span<const Pose> end,
+                        std::span<const BodyId> bodies) const {
+  return impl_ && impl_->pairs.outdated(start, end, bodies);
+}
+
+void Collider::rest(std::span<const BodyId> bodies, std::span<const Pose> poses) {
+  held().pairs.rest(bodies, poses);
+}
+void Collider::wake(std::span<const BodyId> bodies) { held().pairs.wake(bodies); }
+bool Collider::canTouch() const { return impl_ && impl_->pairs.canTouch(); }
+bool Collider::hasShapes() const { return impl_ && !impl_->pairs.items().empty(); }
+void Collider::forgetShapes() {
+  if (!impl_) return;
+  const auto ignored = impl_->pairs.ignored();
+  impl_.reset();
+  for (const auto& [a, b] : ignored) ignore(a, b);
 }
 
 double Collider::distance(BodyId a, const Pose& poseA, BodyId b, const Pose& poseB) const {
+  if (!impl_) return std::numeric_limits<double>::infinity();
   const int first = impl_->pairs.indexOf(a), second = impl_->pairs.indexOf(b);
   if (first < 0 || second < 0) return std::numeric_limits<double>::infinity();
   const Solid& solidA = impl_->pairs.items()[first].solid;
@@ -150,8 +172,15 @@ double Collider::distance(BodyId a, const Pose& poseA, BodyId b, const Pose& pos
 }
 
 Collider::Counts Collider::counts() const {
+  if (!impl_) return {};
   return {impl_->narrowPhaseCalls, impl_->pairs.broadPhaseCalls(),
           static_cast<int>(impl_->pairs.keys().size())};
+}
+
+std::size_t Collider::bytes() const {
+  if (!impl_) return 0;
+  return sizeof(Impl) + impl_->pairs.bytes() + impl_->manifolds.capacity() * sizeof(Manifold) +
+         impl_->sources.capacity() * sizeof(int);
 }
 
 }  // namespace physics

@@ -59,9 +59,20 @@ class Collider {
   std::span<const Manifold> find(std::span<const Pose> start, std::span<const Pose> end,
                                  double margin);
 
-  // True when some body, moving from `start` to `end`, leaves the bounds that the last find()
+  // True when one of `bodies`, moving from `start` to `end`, leaves the bounds that the last find()
   // looked in: contacts may be missing, call find() again.
-  bool outdated(std::span<const Pose> start, std::span<const Pose> end) const;
+  bool outdated(std::span<const Pose> start, std::span<const Pose> end,
+                std::span<const BodyId> bodies) const;
+
+  // Bodies that stand still at these poses until they are woken: no work goes into them, and two of
+  // them are not reported. In increasing order.
+  void rest(std::span<const BodyId> bodies, std::span<const Pose> poses);
+  void wake(std::span<const BodyId> bodies);
+
+  // False: every pair is ignored, or nothing in it moves; find() has nothing to look for.
+  bool canTouch() const;
+  bool hasShapes() const;
+  void forgetShapes();  // but not which pairs are ignored
 
   // Signed distance [m] (negative: depth) of two bodies at these poses; +infinity for a pair
   // without shapes. For measures and tests, not for the step.
@@ -74,10 +85,12 @@ class Collider {
     int pairs = 0;
   };
   Counts counts() const;
+  std::size_t bytes() const;  // held now
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Impl& held();
+  std::unique_ptr<Impl> impl_;  // absent until something is added
 };
 
 }  // namespace physics

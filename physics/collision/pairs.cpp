@@ -64,6 +64,7 @@ void Pairs::add(BodyId body, const Shape& shape, bool movable) {
   indexOf_[body] = static_cast<int>(items_.size());
   if (item.solid.kind == Kind::plane) planes_.push_back(indexOf_[body]);
   items_.push_back(std::move(item));
+  moving_.push_back(static_cast<int>(items_.size()) - 1);
   treeIndex_.push_back(-1);
   moved_.push_back(1);
   const double nowhere = std::numeric_limits<double>::infinity();
@@ -135,6 +136,7 @@ void Pairs::dropParted() {
 void Pairs::findNew() {
   fresh_.clear();
   const auto offer = [&](int p, int q) {
+    if (items_[p].rests && items_[q].rests) return;
     if (wanted(items_[p], items_[q]) && touches(p, q)) fresh_.push_back(keyOf(p, q));
   };
   for (const auto& [p, q] : found_) offer(itemOfTree_[p], itemOfTree_[q]);
@@ -184,21 +186,39 @@ void Pairs::fatten(int i, const Bounds& path, double margin) {
   movedTree_.push_back(treeIndex_[i]);
 }
 
+// True: every bound has to be taken anew.
+bool Pairs::takeMotions(std::span<const Pose> start, std::span<const Pose> end, bool all) {
+  for (const int i : moving_) {
+    all = takeMotion(items_[i], start[items_[i].body], end[items_[i].body]) || all;
+  }
+  for (const int i : late_) {
+    all = takeMotion(items_[i], start[items_[i].body], end[items_[i].body]) || all;
+  }
+  return all;
+}
+
+void Pairs::takeBounds(int i, std::span<const Pose> start, std::span<const Pose> end,
+                       double margin, bool all) {
+  const Item& item = items_[i];
+  if (item.solid.kind == Kind::plane) return;
+  const Bounds path = swept(item.solid, start[item.body], end[item.body]);
+  moved_[i] = all || !within(grown(path, margin), fat_[i]);
+  if (moved_[i]) fatten(i, path, margin);
+}
+
 void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin) {
   require(start.size() == end.size() && start.size() >= indexOf_.size(),
           "collider: start and end must hold a pose for each body");
-  bool all = margin > margin_;
-  for (Item& item : items_) {
-    all = takeMotion(item, start[item.body], end[item.body]) || all;
-  }
   movedTree_.clear();
-  for (std::size_t i = 0; i < items_.size(); ++i) {
-    const Item& item = items_[i];
-    if (item.solid.kind == Kind::plane) continue;
-    const Bounds path = swept(item.solid, start[item.body], end[item.body]);
-    moved_[i] = all || !within(grown(path, margin), fat_[i]);
-    if (moved_[i]) fatten(static_cast<int>(i), path, margin);
+  if (takeMotions(start, end, margin > margin_)) {
+    for (int i = 0; i < static_cast<int>(items_.size()); ++i) {
+      takeBounds(i, start, end, margin, true);
+    }
+  } else {
+    for (const int i : moving_) takeBounds(i, start, end, margin, false);
+    for (const int i : late_) takeBounds(i, start, end, margin, false);
   }
+  late_.clear();
   margin_ = std::max(margin, margin_);
   if (movedTree_.empty() && !ignoredMore_) return;
   dropParted();
@@ -209,11 +229,12 @@ void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, doubl
   ignoredMore_ = false;
 }
 
-bool Pairs::outdated(std::span<const Pose> start, std::span<const Pose> end) const {
-  for (std::size_t i = 0; i < items_.size(); ++i) {
-    const Item& item = items_[i];
-    if (item.solid.kind == Kind::plane) continue;
-    if (!within(swept(item.solid, start[item.body], end[item.body]), fat_[i])) return true;
+bool Pairs::outdated(std::span<const Pose> start, std::span<const Pose> end,
+                     std::span<const BodyId> bodies) const {
+  for (const BodyId body : bodies) {
+    const int i = indexOf(body);
+    if (i < 0 || items_[i].solid.kind == Kind::plane) continue;
+    if (!within(swept(items_[i].solid, start[body], end[body]), fat_[i])) return true;
   }
   return false;
 }

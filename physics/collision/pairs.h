@@ -15,6 +15,7 @@ namespace physics::collision {
 struct Item {
   BodyId body = 0;
   bool movable = false;
+  bool rests = false;  // stands still until it is woken
   double travel = 0;  // length of the way of its points so far, at most [m]
   double turn = 0;    // the furthest that turning moves a point of the core in this step [m]
   Vec3 move = Vec3::Zero();
@@ -46,7 +47,15 @@ class Pairs {
   // Takes the motion of all items over and brings the list up to date: afterwards it holds every
   // pair whose surfaces come within `margin` of each other between start and end.
   void update(std::span<const Pose> start, std::span<const Pose> end, double margin);
-  bool outdated(std::span<const Pose> start, std::span<const Pose> end) const;
+  bool outdated(std::span<const Pose> start, std::span<const Pose> end,
+                std::span<const BodyId> bodies) const;
+
+  // Items that stand still leave the list of moving ones, and their pairs that of watched ones.
+  void rest(std::span<const BodyId> bodies, std::span<const Pose> poses);
+  void wake(std::span<const BodyId> bodies);
+
+  bool canTouch() const;  // some pair is wanted
+  std::size_t bytes() const;
 
   const std::vector<Item>& items() const { return items_; }
   int indexOf(BodyId body) const;  // -1: no shape
@@ -64,6 +73,10 @@ class Pairs {
  private:
   static bool takeMotion(Item& item, const Pose& from, const Pose& to);  // true: a plane moved
   void fatten(int item, const Bounds& path, double margin);
+  bool takeMotions(std::span<const Pose> start, std::span<const Pose> end, bool all);
+  void takeBounds(int item, std::span<const Pose> start, std::span<const Pose> end, double margin,
+                  bool all);
+  bool bothRest(const Key& key) const;
   bool wanted(const Item& p, const Item& q) const;
   Key keyOf(int p, int q) const;
   bool touches(int p, int q) const;  // of the fat bounds
@@ -75,6 +88,8 @@ class Pairs {
   std::vector<Bounds> fat_;
   std::vector<int> indexOf_;  // by BodyId
   std::vector<int> planes_;   // items that are planes; the tree does not know them
+  std::vector<int> moving_;   // items that do not rest
+  std::vector<int> late_;     // items that rest, to be placed once more
   std::vector<int> treeIndex_, itemOfTree_;
   BroadPhase tree_;
   std::vector<std::pair<BodyId, BodyId>> ignored_;  // sorted, first < second
@@ -83,6 +98,7 @@ class Pairs {
   std::int64_t broadPhaseCalls_ = 0;
 
   std::vector<Key> keys_, fresh_, merged_;
+  std::vector<Key> parked_;  // pairs of two that rest; sorted
   std::vector<Watch> watches_;
   std::vector<Finding> findings_;  // beside the watches: seldom read while at rest
   std::vector<int> free_;

@@ -124,16 +124,24 @@ void SoftCollider::look(int index, const Rigid& rigid, std::span<const Pose> sta
 }
 
 std::span<const SoftTouch> SoftCollider::find(std::span<const Pose> start,
-                                              std::span<const Pose> end, double margin) {
+                                              std::span<const Pose> end, double margin,
+                                              std::span<const char> leftOut) {
   takeMotion(start, end, margin);
   touches_.clear();
   touches_.reserve(elements_.size());
   for (int k = 0; k < static_cast<int>(elements_.size()); ++k) {
+    const bool out = !leftOut.empty() && leftOut[elements_[k].from] && leftOut[elements_[k].to];
     for (const Rigid& rigid : rigids_) {
+      if (out && leftOut[rigid.body]) continue;
       if (mayTouch(elements_[k], rigid, start, end, margin)) look(k, rigid, start, end, margin);
     }
   }
   return touches_;
+}
+
+std::size_t SoftCollider::bytes() const {
+  return elements_.capacity() * sizeof(SoftElement) + rigids_.capacity() * sizeof(Rigid) +
+         ignored_.capacity() * sizeof(ignored_[0]) + touches_.capacity() * sizeof(SoftTouch);
 }
 
 }  // namespace physics

@@ -36,15 +36,18 @@ class SoftCollider {
   void addElement(const SoftElement& element) { elements_.push_back(element); }
   // Links that end at this point never touch this body, nor does the point: it hangs on it.
   void ignore(BodyId point, BodyId body);
-  bool empty() const { return elements_.empty(); }
+  bool empty() const { return elements_.empty() || rigids_.empty(); }
+  std::size_t bytes() const;
   std::size_t elementCount() const { return elements_.size(); }
   const SoftElement& element(int index) const { return elements_[index]; }
 
   // Every place whose gap at `start` is at most `margin` [m] plus the way that element and body
   // make towards each other until `end`; taken at `start`, so that nothing passes through a thin
   // body. Ordered by element and body, valid until the next call; allocates only while it grows.
+  // `leftOut`, where not empty, by body: an element and a body that both are, or are static, are not
+  // looked at.
   std::span<const SoftTouch> find(std::span<const Pose> start, std::span<const Pose> end,
-                                  double margin);
+                                  double margin, std::span<const char> leftOut = {});
 
  private:
   struct Rigid {

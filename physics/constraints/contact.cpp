@@ -64,6 +64,7 @@ ContactPair fromManifold(const Manifold& manifold, const Bodies& bodies) {
   const Friction &fa = bodies.friction[pair.a], &fb = bodies.friction[pair.b];
   pair.friction.staticCoefficient = geometricMean(fa.staticCoefficient, fb.staticCoefficient);
   pair.friction.dynamicCoefficient = geometricMean(fa.dynamicCoefficient, fb.dynamicCoefficient);
+  pair.frictional = pair.friction.staticCoefficient > 0 || bodies.general;
   pair.count = manifold.count;
   for (int k = 0; k < manifold.count; ++k) pair.points[k].shape = manifold.points[k];
   return pair;

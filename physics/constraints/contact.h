@@ -46,6 +46,7 @@ struct ContactPair {
   bool carried = false;         // the normal turns with body b (its face); else fixed in the world
   Vec3 normal = Vec3::UnitY();  // body frame of b when carried, else world
   Friction friction;
+  bool frictional = true;     // it has rows of friction
   double step = 0;            // that the multipliers belong to, with second-order steppings [s]
   Vec3 given = Vec3::Zero();  // to a in this substep, to and fro summed up, times h^2; b: opposite
   int count = 0;

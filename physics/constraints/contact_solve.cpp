@@ -214,7 +214,7 @@ double solveNormals(ContactPair& pair, Bodies& bodies, double xi, double allowan
 }
 
 double solveFrictions(ContactPair& pair, Bodies& bodies, double xi, bool backward, Visit& visit) {
-  if (pair.friction.staticCoefficient == 0) return 0;
+  if (!pair.frictional) return 0;
   double largest = 0;
   visit.t1 = anyNormalTo(visit.n);
   visit.t2 = visit.n.cross(visit.t1);

@@ -16,7 +16,7 @@ constexpr double kLargestTurn = 0.2;  // rad
 void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
   Pose& pose = bodies.pose[i];
   Vec3& w = bodies.velocity[i].w;
-  if (isIsotropic(bodies.inertia[i])) {               // the gyroscopic torque is zero
+  if (!bodies.general && isIsotropic(bodies.inertia[i])) {  // the gyroscopic torque is zero
     w += dt * bodies.inverseInertia[i].x() * torque;  // (30)
     bodies.freeTurn[i] = dt * w;
   } else {
@@ -92,7 +92,7 @@ void moveFreely(Bodies& bodies, BodyId i, const Load& load, const std::optional<
 
 void moveFreely(Bodies& bodies, std::span<const Load> loads, const std::optional<Vec3>& gravity,
                 double dt) {
-  for (int i = 0; i < bodies.size(); ++i) moveFreely(bodies, i, loads[i], gravity, dt);
+  for (const BodyId i : bodies.active) moveFreely(bodies, i, loads[i], gravity, dt);
 }
 
 void finishVelocity(Bodies& bodies, BodyId i, double dt) {
@@ -102,7 +102,7 @@ void finishVelocity(Bodies& bodies, BodyId i, double dt) {
   bodies.pose[i].q.normalize();
   const Quat moved = movedOrientation(bodies, i);
   const Vec3 turn = unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
-  if (isIsotropic(bodies.inertia[i])) {
+  if (!bodies.general && isIsotropic(bodies.inertia[i])) {
     bodies.velocity[i].w = turn / dt;  // bounded by pi/h, where the sum (45) is not; paper.md
   } else {
     bodies.velocity[i].w += (turn - bodies.freeTurn[i]) / dt;
@@ -110,7 +110,7 @@ void finishVelocity(Bodies& bodies, BodyId i, double dt) {
 }
 
 void finishVelocities(Bodies& bodies, double dt) {
-  for (int i = 0; i < bodies.size(); ++i) finishVelocity(bodies, i, dt);
+  for (const BodyId i : bodies.active) finishVelocity(bodies, i, dt);
 }
 
 void refreshInertia(Bodies& bodies) {
@@ -136,7 +136,7 @@ void refreshSpinInertia(Bodies& bodies, double dt) {
 }
 
 void bringToRest(Bodies& bodies) {
-  for (int i = 0; i < bodies.size(); ++i) {
+  for (const BodyId i : bodies.active) {
     if (bodies.motion[i] == Motion::kDynamic) bodies.velocity[i] = {};
   }
 }

@@ -117,13 +117,13 @@ void finishSymmetric(Bodies& bodies, BodyId i, const Load& load, const Vec3& gra
 
 }  // namespace
 
-void makeRoom(SecondOrder& s, int bodies) {
-  const auto size = static_cast<std::size_t>(bodies);
+void makeRoom(SecondOrder& s, std::span<const Pose> pose) {
+  const std::size_t size = pose.size();
   s.scheme.resize(size, Scheme::kPaper);
   s.step.resize(size, 0);
   s.history.resize(size);
-  s.origin.resize(size);
-  s.before.resize(size);
+  s.origin.assign(pose.begin(), pose.end());
+  s.before.assign(pose.begin(), pose.end());
   s.middle.resize(size);
   s.velocity.resize(size);
   for (std::vector<Vec3>* each : {&s.angularMomentum, &s.target, &s.twist, &s.jointTwist}) {
@@ -142,7 +142,7 @@ void moveFreelySecondOrder(Bodies& bodies, std::span<const Load> loads,
   SecondOrder& s = bodies.second;
   s.h = h;
   const Vec3 g = gravity.value_or(Vec3::Zero());
-  for (int i = 0; i < bodies.size(); ++i) {
+  for (const BodyId i : bodies.active) {
     begin(bodies, i);
     if (bodies.motion[i] == Motion::kKinematic) {
       moveKinematic(bodies, i);
@@ -163,10 +163,10 @@ void balance(Bodies& bodies) {
 
 void balance(Bodies& bodies, Scheme scheme) {
   const SecondOrder& s = bodies.second;
-  for (std::size_t i = 0; i < s.scheme.size(); ++i) {
-    if (s.scheme[i] != scheme || !turnsByTorque(bodies, static_cast<BodyId>(i))) continue;
+  for (const BodyId i : bodies.active) {
+    if (s.scheme[i] != scheme || !turnsByTorque(bodies, i)) continue;
     if (s.twist[i].isZero(0) && s.jointTwist[i].isZero(0)) continue;
-    balance(bodies, static_cast<BodyId>(i));
+    balance(bodies, i);
   }
 }
 
@@ -182,7 +182,7 @@ void finishSecondOrder(Bodies& bodies, std::span<const Load> loads,
                        const std::optional<Vec3>& gravity) {
   const SecondOrder& s = bodies.second;
   const Vec3 g = gravity.value_or(Vec3::Zero());
-  for (int i = 0; i < bodies.size(); ++i) {
+  for (const BodyId i : bodies.active) {
     if (bodies.motion[i] != Motion::kDynamic) continue;
     if (s.scheme[i] == Scheme::kPaper) finishVelocity(bodies, i, s.h);
     if (s.scheme[i] == Scheme::kBdf2) finishBdf2(bodies, i);
@@ -192,7 +192,7 @@ void finishSecondOrder(Bodies& bodies, std::span<const Load> loads,
 
 void remember(Bodies& bodies, const std::vector<bool>& smooth) {
   SecondOrder& s = bodies.second;
-  for (int i = 0; i < bodies.size(); ++i) {
+  for (const BodyId i : bodies.active) {
     if (bodies.motion[i] != Motion::kDynamic) continue;
     History& past = s.history[i];
     past.smooth = smooth[i];
@@ -211,8 +211,10 @@ void forgetPast(SecondOrder& s, BodyId body) {
 }
 
 void rewind(Bodies& bodies) {
-  bodies.pose = bodies.second.origin;
-  bodies.velocity = bodies.second.velocity;
+  for (const BodyId i : bodies.active) {
+    bodies.pose[i] = bodies.second.origin[i];
+    bodies.velocity[i] = bodies.second.velocity[i];
+  }
 }
 
 }  // namespace physics

@@ -19,7 +19,7 @@
 
 namespace physics {
 
-void makeRoom(SecondOrder& second, int bodies);
+void makeRoom(SecondOrder& second, std::span<const Pose> pose);
 
 // As moveFreely, each body by its scheme. `h` is the substep.
 void moveFreelySecondOrder(Bodies& bodies, std::span<const Load> loads,

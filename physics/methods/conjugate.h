@@ -17,6 +17,8 @@ class Conjugate {
   void accelerate(Contacts& contacts,
                   Bodies& bodies);  // after each pair of sweeps, forwards and backwards
 
+  std::size_t bytes() const { return (before_.capacity() + direction_.capacity()) * sizeof(Vec3); }
+
  private:
   std::vector<Vec3> before_, direction_;  // per contact point, world, times h^2
   double last_ = 0;                       // weighted square of the last gradient

@@ -30,7 +30,7 @@ void forEachJoint(World::Impl& world, F&& f) {
   forEachKind(world.kinds, [&](auto& kind) {
     auto& set = kind.set;
     if constexpr (isJoint<typename std::decay_t<decltype(kind)>::Item>()) {
-      for (std::size_t k = 0; k < set.items.size(); ++k) {
+      for (const int k : set.active) {
         if (isSolvedDirectly(set.items[k])) f(set.items[k], set.lambda[k], set.tuned[k], next++);
       }
     }
@@ -99,7 +99,7 @@ Vec3 twistLeft(const Bodies& bodies, BodyId i, const Mat3& inertia, const JointM
 }
 
 void invertMasses(World::Impl& world) {
-  for (int i = 0; i < world.bodies.size(); ++i) {
+  for (const BodyId i : world.bodies.active) {
     JointMotion& m = world.jointMotion[i];
     const InverseMass& inverse = world.bodies.inverse[i];
     m.inverseLinear = inverse.m * Mat3::Identity();
@@ -179,7 +179,7 @@ void apply(World::Impl& world) {
       m.torque += joint.responseAngular[b] * world.jointChange[k];
     }
   }
-  for (int i = 0; i < world.bodies.size(); ++i) {
+  for (const BodyId i : world.bodies.active) {
     JointMotion& m = world.jointMotion[i];
     if (world.bodies.inverse[i].m == 0) continue;
     m.dx += m.impulse;

@@ -36,7 +36,7 @@ template <class K>
 bool sweepKind(K& kind, Bodies& bodies, double dt, bool joints, StepReport& report) {
   auto& set = kind.set;
   const Configuration at{bodies.pose, bodies.start, dt};
-  for (std::size_t k = 0; k < set.items.size(); ++k) {
+  for (const int k : set.active) {
     if (!joints && isSolvedDirectly(set.items[k])) continue;
     ++report.constraintEvaluations;
     if (solveOne(set, k, bodies, at)) continue;
@@ -52,8 +52,10 @@ bool sweepContacts(World::Impl& world, double dt, bool backward, StepReport& rep
   const double allowance = world.settings.contact->maxSeparationSpeed * dt;
   auto& pairs = world.contacts.pairs;
   report.constraintEvaluations += static_cast<std::int64_t>(pairs.size());
+  report.work.contactVisits += static_cast<std::int64_t>(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const std::size_t k = backward ? pairs.size() - 1 - i : i;
+    report.work.frictionRows += pairs[k].frictional ? 2 * pairs[k].count : 0;
     const double error =
         solve(pairs[k], world.bodies, world.settings.relaxation, allowance, backward);
     if (!std::isfinite(error)) {
@@ -88,7 +90,7 @@ template <class C>
 double projectKind(Set<C>& set, World::Impl& world) {
   double change = 0;
   if constexpr (!Force<C> && canStand<C>()) {
-    for (std::size_t k = 0; k < set.items.size(); ++k) {
+    for (const int k : set.active) {
       if (isDirect(world) && isSolvedDirectly(set.items[k])) continue;
       if (!isSymmetric(set.items[k], world.bodies)) continue;
       Scratch<C> local;
@@ -106,9 +108,9 @@ struct Patience {
   double tolerance;
 };
 
-Patience patience(const World::Impl& world, const StepReport& report) {
+Patience patience(const World::Impl& world) {
   const Settings& s = world.settings;
-  if (world.stepCount == 0 && report.substeps == 0) {
+  if (world.stepCount == 0 && world.substep == 0) {
     return {s.iterations, std::max(s.iterations, 1500), 1e-4 * s.tolerance};
   }
   return {s.iterations, s.maxIterations, s.tolerance};
@@ -118,7 +120,7 @@ Patience patience(const World::Impl& world, const StepReport& report) {
 // conjugate.
 bool onlyContacts(const World::Impl& world) {
   bool only = true;
-  forEachKind(world.kinds, [&](const auto& kind) { only = only && kind.set.items.empty(); });
+  forEachKind(world.kinds, [&](const auto& kind) { only = only && kind.set.active.empty(); });
   return only;
 }
 
@@ -137,7 +139,7 @@ void prepareConstraints(World::Impl& world, double dt) {
   const bool warm = world.settings.warmStartJoints && !isLinear;
   forEachKind(world.kinds, [&](auto& kind) {
     auto& set = kind.set;
-    for (std::size_t k = 0; k < set.items.size(); ++k) {
+    for (const int k : set.active) {
       if (isDirect(world) && isSolvedDirectly(set.items[k])) {  // goes on from its last multipliers
         set.lambda[k].loaded = !set.lambda[k].total.isZero(0);
         rescale(set.lambda[k], stepOf(set.items[k], world.bodies, dt));
@@ -164,7 +166,7 @@ bool sweep(World::Impl& world, double dt, bool backward, StepReport& report) {
 
 void iterate(World::Impl& world, double dt, StepReport& report,
              const std::function<bool()>& beforeSweep) {
-  const Patience limit = patience(world, report);
+  const Patience limit = patience(world);
   const bool accelerated = onlyContacts(world);
   const auto isSettled = [&] {
     return report.residual <= limit.tolerance && !(world.jointError > kClosed);

@@ -23,6 +23,7 @@ BodyId add(Bodies& bodies, const BodyOf& def) {
   bodies.freeTurn.push_back(Vec3::Zero());
   bodies.shape.push_back(PointShape{});
   bodies.friction.emplace_back();
+  if (def.mass > 0) bodies.active.push_back(bodies.size() - 1);
   if (inverse.x() != inverse.y() || inverse.y() != inverse.z()) {
     bodies.anisotropic.push_back(bodies.size() - 1);
   }

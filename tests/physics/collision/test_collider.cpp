@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <numeric>
 
 #include "tests/physics/collision/scene_of_two.h"
 
@@ -17,6 +18,11 @@ struct Pile {
   void add(const Shape& shape, const Vec3& x, bool movable = true) {
     collider.add(static_cast<BodyId>(poses.size()), shape, movable);
     poses.push_back({x, Quat::Identity()});
+  }
+  std::vector<BodyId> bodies() const {
+    std::vector<BodyId> all(poses.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
   }
   std::vector<Manifold> find(double margin = 0.02) {
     const auto found = collider.find(poses, poses, margin);
@@ -141,10 +147,10 @@ TEST(Collider, MovingAPlaneIsSeen) {
 TEST(Collider, TellsWhenBodiesLeaveTheBoundsItLookedIn) {
   Pile pile = pyramid(3);
   pile.find();
-  EXPECT_FALSE(pile.collider.outdated(pile.poses, pile.poses));
+  EXPECT_FALSE(pile.collider.outdated(pile.poses, pile.poses, pile.bodies()));
   std::vector<Pose> end = pile.poses;
   end[4].x.x() += 1;
-  EXPECT_TRUE(pile.collider.outdated(pile.poses, end));
+  EXPECT_TRUE(pile.collider.outdated(pile.poses, end, pile.bodies()));
 }
 
 TEST(Collider, DistanceOfABodyWithoutShapeIsInfinite) {

@@ -1,0 +1,93 @@
+// Items that stand still: out of the lists that a look walks, and back.
+#include <algorithm>
+#include <limits>
+
+#include "physics/collision/pairs.h"
+
+namespace physics::collision {
+namespace {
+
+template <class T>
+std::size_t bytesOf(const std::vector<T>& list) {
+  return list.capacity() * sizeof(T);
+}
+
+bool byBodies(const Pairs::Key& p, const Pairs::Key& q) {
+  return std::pair(p.a, p.b) < std::pair(q.a, q.b);
+}
+
+// Moves what `leaves` from one sorted list to another.
+template <class F>
+void carry(std::vector<Pairs::Key>& from, std::vector<Pairs::Key>& to, F&& leaves) {
+  const auto stays = [&](const Pairs::Key& key) { return !leaves(key); };
+  const auto gone = std::stable_partition(from.begin(), from.end(), stays);
+  const auto middle = static_cast<std::ptrdiff_t>(to.size());
+  to.insert(to.end(), gone, from.end());
+  from.erase(gone, from.end());
+  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byBodies);
+}
+
+}  // namespace
+
+bool Pairs::bothRest(const Key& key) const {
+  return items_[indexOf_[key.a]].rests && items_[indexOf_[key.b]].rests;
+}
+
+void Pairs::rest(std::span<const BodyId> bodies, std::span<const Pose> poses) {
+  for (const BodyId body : bodies) {
+    const int i = indexOf(body);
+    if (i < 0 || items_[i].rests) continue;
+    items_[i].rests = true;
+    takeMotion(items_[i], poses[body], poses[body]);
+    moved_[i] = 0;
+    late_.push_back(i);
+  }
+  std::erase_if(moving_, [&](int i) { return items_[i].rests; });
+  carry(keys_, parked_, [&](const Key& key) { return bothRest(key); });
+}
+
+void Pairs::wake(std::span<const BodyId> bodies) {
+  const double nowhere = std::numeric_limits<double>::infinity();
+  const auto middle = static_cast<std::ptrdiff_t>(moving_.size());
+  for (const BodyId body : bodies) {
+    const int i = indexOf(body);
+    if (i < 0 || !items_[i].rests) continue;
+    items_[i].rests = false;
+    fat_[i] = {Vec3::Constant(nowhere), Vec3::Constant(-nowhere)};  // its pairs are looked for anew
+    moving_.push_back(i);
+  }
+  std::inplace_merge(moving_.begin(), moving_.begin() + middle, moving_.end());
+  std::erase_if(late_, [&](int i) { return !items_[i].rests; });
+  carry(parked_, keys_, [&](const Key& key) { return !bothRest(key); });
+}
+
+// Of the pairs that there are, how many are ignored? Points never touch one another.
+bool Pairs::canTouch() const {
+  std::int64_t solids = 0, points = 0, fixedSolids = 0, fixedPoints = 0;
+  for (const Item& item : items_) {
+    const bool isPoint = item.solid.kind == Kind::point;
+    (isPoint ? points : solids) += 1;
+    if (!item.movable) (isPoint ? fixedPoints : fixedSolids) += 1;
+  }
+  const auto among = [](std::int64_t n, std::int64_t m) { return n * (n - 1) / 2 + n * m; };
+  std::int64_t pairs = among(solids, points) - among(fixedSolids, fixedPoints);
+  for (const auto& [a, b] : ignored_) {
+    const int p = indexOf(a), q = indexOf(b);
+    if (p < 0 || q < 0 || (!items_[p].movable && !items_[q].movable)) continue;
+    pairs -= items_[p].solid.kind != Kind::point || items_[q].solid.kind != Kind::point;
+  }
+  return pairs > 0;
+}
+
+std::size_t Pairs::bytes() const {
+  std::size_t sum = bytesOf(items_) + bytesOf(fat_) + bytesOf(indexOf_) + bytesOf(planes_) +
+                    bytesOf(moving_) + bytesOf(late_) + bytesOf(treeIndex_) +
+                    bytesOf(itemOfTree_) + bytesOf(ignored_) + bytesOf(keys_) + bytesOf(fresh_) +
+                    bytesOf(merged_) + bytesOf(parked_) + bytesOf(watches_) + bytesOf(findings_) +
+                    bytesOf(free_) + bytesOf(moved_) + bytesOf(movedTree_) + bytesOf(treeBounds_) +
+                    bytesOf(found_) + tree_.bytes();
+  for (const Item& item : items_) sum += bytesOf(item.solid.edges);
+  return sum;
+}
+
+}  // namespace physics::collision

@@ -1,0 +1,173 @@
+// Falling asleep, and waking.
+#include "physics/effects/sleep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "physics/effects/second_order.h"
+#include "physics/islands.h"
+#include "physics/presence.h"
+#include "physics/world_impl.h"
+
+namespace physics {
+namespace {
+
+bool isSlow(const Bodies& bodies, BodyId i, double speed) {
+  const Velocity& velocity = bodies.velocity[i];
+  if (bodies.motion[i] == Motion::kKinematic) return velocity.v.isZero(0) && velocity.w.isZero(0);
+  const double share = bodies.inertia[i].maxCoeff() / bodies.mass[i];
+  return velocity.v.squaredNorm() + share * velocity.w.squaredNorm() < speed * speed;
+}
+
+// True where some body has been slow for long enough.
+bool countStill(World::Impl& w, int enough) {
+  bool any = false;
+  for (const BodyId i : w.bodies.active) {
+    int& still = w.sleep.still[i];
+    still = isSlow(w.bodies, i, w.settings.sleep->speed) ? std::min(still + 1, enough) : 0;
+    any = any || still == enough;
+  }
+  return any;
+}
+
+// By everything that is watched: what may touch soon does not sleep apart.
+Islands watchedIslands(World::Impl& w) {
+  Islands islands = jointIslands(w);
+  for (const ContactPair& pair : w.contacts.pairs) join(w.bodies, islands, pair.a, pair.b);
+  for (const SoftContact& c : w.softContacts) {
+    join(w.bodies, islands, c.from, c.to);
+    join(w.bodies, islands, c.from, c.body);
+  }
+  settle(islands, w.bodies.active);
+  return islands;
+}
+
+// The bodies of islands that have been slow for long enough, in order.
+std::vector<BodyId> restingBodies(const World::Impl& w, const Islands& islands, int enough) {
+  std::vector<char> rests(islands.size(), 1);
+  for (const BodyId i : w.bodies.active) {
+    if (w.sleep.still[i] < enough) rests[islands[i]] = 0;
+  }
+  std::vector<BodyId> bodies;
+  for (const BodyId i : w.bodies.active) {
+    if (rests[islands[i]]) bodies.push_back(i);
+  }
+  return bodies;
+}
+
+void stop(World::Impl& w, BodyId i) {
+  Bodies& b = w.bodies;
+  b.velocity[i] = {};
+  b.start[i] = w.ahead[i] = w.last.pose[i] = b.pose[i];
+  w.last.velocity[i] = {};
+  b.correction[i] = {};
+  b.shift[i].setZero();
+  b.freeTurn[i].setZero();
+  if (!b.second.empty()) b.second.origin[i] = b.second.before[i] = b.pose[i];
+  forgetPast(b.second, i);
+}
+
+bool byBodies(const ContactPair& p, const ContactPair& q) {
+  return p.a != q.a ? p.a < q.a : p.b < q.b;
+}
+
+// Contact pairs that `leave` from one sorted list to another.
+template <class F>
+void carry(std::vector<ContactPair>& from, std::vector<ContactPair>& to, F&& leaves) {
+  const auto stays = [&](const ContactPair& pair) { return !leaves(pair); };
+  const auto gone = std::stable_partition(from.begin(), from.end(), stays);
+  const auto middle = static_cast<std::ptrdiff_t>(to.size());
+  to.insert(to.end(), gone, from.end());
+  from.erase(gone, from.end());
+  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byBodies);
+}
+
+bool isAsleep(const World::Impl& w, const ContactPair& pair) {
+  return w.sleep.asleep[pair.a] || w.sleep.asleep[pair.b];
+}
+
+// What steps from now on, and what only stays in it for its turn or its gravity.
+void listAwake(World::Impl& w) {
+  const auto isAwake = [&](BodyId i) { return !w.sleep.asleep[i]; };
+  Bodies& b = w.bodies;
+  b.active.clear();
+  b.anisotropic.clear();
+  for (BodyId i = kWorldBody + 1; i < b.size(); ++i) {
+    if (b.motion[i] == Motion::kStatic || !isAwake(i)) continue;
+    b.active.push_back(i);
+    const Vec3& inverse = b.inverseInertia[i];
+    if (inverse.x() != inverse.y() || inverse.y() != inverse.z()) b.anisotropic.push_back(i);
+  }
+  forEachKind(w.kinds, [&](auto& kind) {
+    auto& set = kind.set;
+    set.active.clear();
+    for (std::size_t k = 0; k < set.items.size(); ++k) {
+      const BodyId mover = moverOf(set.items[k], b);
+      if (isAwake(mover)) set.active.push_back(static_cast<int>(k));
+    }
+  });
+  w.joints = JointSystem{};
+  w.local.groups.clear();
+  notePresence(w);
+}
+
+void makeRoom(Sleep& sleep, std::size_t bodies) {
+  sleep.still.resize(bodies, 0);
+  sleep.asleep.resize(bodies, 0);
+  sleep.island.resize(bodies, kWorldBody);
+}
+
+}  // namespace
+
+bool sleeps(const Settings& settings) {
+  return settings.sleep && settings.leavesOut && settings.stepping != Stepping::kStatic &&
+         (settings.method == Method::kNonlinearGaussSeidel || settings.method == Method::kDirect);
+}
+
+void fallAsleep(World::Impl& w, StepReport& report) {
+  if (!sleeps(w.settings)) return;
+  makeRoom(w.sleep, w.bodies.pose.size());
+  const int enough = std::max(1, static_cast<int>(std::ceil(w.settings.sleep->time / w.settings.dt)));
+  report.work.restSpeeds += static_cast<std::int64_t>(w.bodies.active.size());
+  if (countStill(w, enough)) {
+    const Islands islands = watchedIslands(w);
+    const std::vector<BodyId> resting = restingBodies(w, islands, enough);
+    for (const BodyId i : resting) {
+      w.sleep.asleep[i] = 1;
+      w.sleep.island[i] = islands[i];
+      stop(w, i);
+    }
+    w.sleep.count += static_cast<int>(resting.size());
+    if (!resting.empty()) {
+      if (w.touches) w.collider.rest(resting, w.bodies.pose);
+      carry(w.contacts.pairs, w.sleep.contacts, [&](auto& pair) { return isAsleep(w, pair); });
+      std::erase_if(w.softContacts, [&](auto& c) { return w.sleep.asleep[c.from] != 0; });
+      listAwake(w);
+    }
+  }
+  report.asleep = w.sleep.count;
+}
+
+void callAwake(World::Impl& w, BodyId body) {
+  if (w.sleep.count > 0 && w.sleep.asleep[body]) w.sleep.called.push_back(body);
+  if (!w.sleep.still.empty()) w.sleep.still[body] = 0;
+}
+
+void wakeCalled(World::Impl& w) {
+  if (w.sleep.called.empty()) return;
+  std::vector<char> wakes(w.bodies.pose.size(), 0);  // by an island's first body
+  for (const BodyId body : w.sleep.called) wakes[w.sleep.island[body]] = 1;
+  w.sleep.called.clear();
+  std::vector<BodyId> woken;
+  for (BodyId i = kWorldBody + 1; i < w.bodies.size(); ++i) {
+    if (w.sleep.asleep[i] && wakes[w.sleep.island[i]]) woken.push_back(i);
+  }
+  for (const BodyId i : woken) w.sleep.asleep[i] = w.sleep.still[i] = 0;
+  w.sleep.count -= static_cast<int>(woken.size());
+  if (w.touches) w.collider.wake(woken);
+  carry(w.sleep.contacts, w.contacts.pairs, [&](auto& pair) { return !isAsleep(w, pair); });
+  listAwake(w);
+}
+
+}  // namespace physics

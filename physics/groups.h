@@ -1,0 +1,66 @@
+// Local substeps: islands that need the same number of substeps make a group, and groups step one
+// after the other, each from contacts found once for the whole step.
+//   need    an island begins with all of Settings::substeps; after each step its error e is looked
+//           at: the largest of its constraints [m or rad] and of its overlaps. An error of
+//           constraints goes with h^2, so that n sqrt(e/tolerance) substeps are asked for, and half
+//           as many are enough once e is below an eighth of the tolerance for some steps.
+//   forces  w h <= 1/2, w^2 = K A the stiffest of its springs; a spin turns by 1 rad at the most
+//   own     a body's `substeps` is the least for its island
+// Numbers are powers of two, or all of Settings::substeps. Where a group meets a body of another
+// one in the middle of the step, the step is made anew with the two islands as one.
+#pragma once
+
+#include <array>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "physics/constraints/contact.h"
+#include "physics/constraints/soft_contact.h"
+#include "physics/islands.h"
+#include "physics/kinds.h"
+#include "physics/methods/joint_system.h"
+#include "physics/world.h"
+
+namespace physics {
+
+struct Group {
+  int substeps = 1;
+  std::vector<BodyId> bodies, anisotropic;
+  std::array<std::vector<int>, std::tuple_size_v<Kinds>> items;
+  std::vector<ContactPair> contacts;
+  std::vector<SoftContact> softContacts;
+  JointSystem joints;  // as it is laid out for these
+};
+
+struct Local {
+  std::vector<int> asked;     // by body: at least
+  std::vector<int> wanted;    // by body: for the next step
+  std::vector<int> substeps;  // by body: of this step, its island's
+  std::vector<int> last;      // by body: of the step before
+  std::vector<int> calm;      // by body: steps in a row that fewer would have done
+  Islands islands;            // of this step
+  std::vector<Group> groups;  // of this step, by increasing number; kept while nothing changes
+  std::vector<std::array<BodyId, 2>> joins;  // of islands that met within this step
+  std::vector<Pose> start, end;              // scratch: of all, for a look from within a group
+  std::vector<Manifold> own;                 // scratch: manifolds of the group
+};
+
+// True where the World's islands may take fewer substeps than others.
+bool stepsLocally(const Settings& settings);
+
+// The groups of this step, with their contacts. Without local substeps: none, and all bodies that
+// are awake step together.
+void takeGroups(World::Impl& world);
+
+// What now steps: `group` in place of everything, and back. No group: everything.
+void enter(World::Impl& world, Group& group);
+void leave(World::Impl& world, Group& group);
+
+// After the last group: contacts are together again.
+void leaveGroups(World::Impl& world);
+
+// After a step: how many substeps each island is to take in the next one.
+void askForSubsteps(World::Impl& world);
+
+}  // namespace physics

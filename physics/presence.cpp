@@ -1,0 +1,124 @@
+// What a step leaves out, and what it does when it meets it.
+#include "physics/presence.h"
+
+#include "physics/world_impl.h"
+
+namespace physics {
+namespace {
+
+bool isApart(const World::Impl& w) { return w.local.groups.size() > 1; }
+
+// Other groups may be before or after their step: wherever they are, from X^t to its end.
+void placeAll(World::Impl& w, std::span<const Pose> start, std::span<const Pose> target) {
+  w.local.start.assign(start.begin(), start.end());
+  w.local.end.assign(target.begin(), target.end());
+  for (BodyId i = kWorldBody + 1; i < w.bodies.size(); ++i) {
+    if (w.present[i] != kLeftOut) continue;
+    w.local.start[i] = w.last.pose[i];
+    w.local.end[i] = w.ahead[i];
+  }
+}
+
+bool notePair(World::Impl& w, BodyId a, BodyId b) {
+  if (w.present[a] == kPresent && w.present[b] == kLeftOut) w.met.push_back({a, b});
+  if (w.present[b] == kPresent && w.present[a] == kLeftOut) w.met.push_back({b, a});
+  return w.present[a] == kPresent || w.present[b] == kPresent;
+}
+
+std::span<const Manifold> ownOf(World::Impl& w, std::span<const Manifold> found) {
+  w.local.own.clear();
+  for (const Manifold& manifold : found) {
+    if (notePair(w, manifold.a, manifold.b)) w.local.own.push_back(manifold);
+  }
+  return w.local.own;
+}
+
+}  // namespace
+
+bool leavesOut(const World::Impl& w) { return w.sleep.count > 0 || isApart(w); }
+
+// Bodies::start is where backward Euler would have started.
+std::span<const Pose> poseAtStart(const World::Impl& w) {
+  return w.bodies.second.empty() ? w.bodies.start : w.bodies.second.origin;
+}
+
+bool findContacts(World::Impl& w, std::span<const Pose> target) {
+  const double margin = w.settings.contact->margin;
+  std::span<const Pose> start = poseAtStart(w);
+  if (isApart(w)) {
+    placeAll(w, start, target);
+    start = w.local.start;
+    target = w.local.end;
+  }
+  std::span<const Manifold> found = w.collider.find(start, target, margin);
+  if (leavesOut(w)) found = ownOf(w, found);
+  if (!w.met.empty()) return false;
+  update(w.contacts, found, w.bodies);
+  return true;
+}
+
+// Points and links are looked at anew in every substep: their planes turn quickly.
+bool findSoftContacts(World::Impl& w) {
+  if (!w.settings.contact || w.softCollider.empty()) return true;
+  const double margin = w.settings.contact->margin;
+  const bool leaves = leavesOut(w);
+  const std::span<const char> leftOut = leaves ? w.present : std::span<const char>{};
+  const auto touches = w.softCollider.find(poseAtStart(w), w.bodies.pose, margin, leftOut);
+  for (const SoftTouch& touch : touches) {
+    if (leaves) notePair(w, w.softCollider.element(touch.element).from, touch.body);
+  }
+  if (!w.met.empty()) return false;
+  startSoftContacts(touches, w.softCollider, w.bodies, w.softContacts);
+  return true;
+}
+
+void notePresence(World::Impl& w) {
+  w.present.assign(w.bodies.pose.size(), kLeftOut);
+  for (BodyId i = 0; i < w.bodies.size(); ++i) {
+    if (!isMovable(w.bodies, i)) w.present[i] = kFixed;
+  }
+  for (const BodyId i : w.bodies.active) w.present[i] = kPresent;
+}
+
+void keepStart(World::Impl& w) {
+  if (w.sleep.count == 0 && !stepsLocally(w.settings)) return;
+  w.kept.contacts = w.contacts.pairs;
+  w.kept.history = w.bodies.second.history;
+  w.kept.unresolved = w.stepper.unresolved;
+  w.kept.bounded = w.stepper.bounded;
+  forEachKind(w.kinds, [](auto& kind) {
+    auto& set = kind.set;
+    if (!set.active.empty()) set.kept.resize(set.lambda.size());
+    for (const int k : set.active) set.kept[k] = set.lambda[k];
+  });
+}
+
+void takeBack(World::Impl& w) {
+  for (const BodyId i : w.bodies.active) {
+    w.bodies.start[i] = w.bodies.pose[i] = w.last.pose[i];
+    w.bodies.velocity[i] = w.last.velocity[i];
+  }
+  w.contacts.pairs = w.kept.contacts;
+  w.bodies.second.history = w.kept.history;
+  w.stepper.unresolved = w.kept.unresolved;
+  w.stepper.bounded = w.kept.bounded;
+  forEachKind(w.kinds, [](auto& kind) {
+    auto& set = kind.set;
+    for (const int k : set.active) set.lambda[k] = set.kept[k];
+  });
+}
+
+bool includeMet(World::Impl& w, StepReport& report) {
+  if (w.met.empty()) return false;
+  takeBack(w);
+  for (const auto& [here, there] : w.met) {
+    callAwake(w, there);
+    if (stepsLocally(w.settings)) w.local.joins.push_back({here, there});
+  }
+  w.met.clear();
+  wakeCalled(w);
+  ++report.work.madeAnew;
+  return true;
+}
+
+}  // namespace physics
