@@ -80,9 +80,9 @@ std::string metricsTable(const std::vector<scenes::FrameMetrics>& metrics,
     }
     for (const std::string& kind : kinds) table += fmt::format(",{:.17g}", errorOf(m, kind));
     const StageSeconds& s = seconds[i];
-    table +=
-        fmt::format(",{:.17g},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", m.overlap, m.contacts,
-                    m.iterations, m.restarts, m.fallbacks, s.simulate, s.view, s.draw, s.write, m.asleep);
+    table += fmt::format(",{:.17g},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", m.overlap,
+                         m.contacts, m.iterations, m.restarts, m.fallbacks, s.simulate, s.view,
+                         s.draw, s.write, m.asleep);
   }
   return table;
 }

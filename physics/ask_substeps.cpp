@@ -55,8 +55,7 @@ std::vector<Need> needs(World::Impl& w) {
   }
   for (const BodyId i : w.bodies.active) {
     Need& need = needs[islands[i]];
-    need.least =
-        std::max(need.least, w.settings.dt * w.bodies.velocity[i].w.norm() / kLargestTurn);
+    need.least = std::max(need.least, w.settings.dt * w.bodies.velocity[i].w.norm() / kLargestTurn);
   }
   return needs;
 }
@@ -74,20 +73,26 @@ int fewer(int n) { return n > 1 ? numberFor(0.5 * n, n) : 1; }
 }  // namespace
 
 void askForSubsteps(World::Impl& w) {
-  if (!stepsLocally(w.settings)) return;
   Local& local = w.local;
+  const bool isTime = !local.full || w.stepCount % kCalm == kCalm - 1;
+  if (!stepsLocally(w.settings) || !isTime) return;
+  if (local.full) joinAll(w);
   const int most = w.settings.substeps;
   const std::vector<Need> all = needs(w);
+  bool full = true;
   for (const BodyId i : w.bodies.active) {
     const Need& need = all[local.islands[i]];
     const int now = local.substeps[i], least = numberFor(need.least, most);
     const double share = need.error / w.settings.localTolerance;
-    local.calm[i] = share < kEasy && least < now ? local.calm[i] + 1 : 0;
+    const int calm = local.full ? kCalm : local.calm[i] + 1;
+    local.calm[i] = share < kEasy && least < now ? calm : 0;
     int next = now;
     if (!(share <= 1)) next = numberFor(std::max(now * std::sqrt(share), now + 1.0), most);
     if (local.calm[i] >= kCalm) next = fewer(now), local.calm[i] = 0;
     local.wanted[i] = std::max(next, least);
+    full = full && local.wanted[i] == most && now == most;
   }
+  local.full = full;
   local.last = local.substeps;
   local.joins.clear();
 }

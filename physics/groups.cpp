@@ -47,22 +47,6 @@ void findAll(World::Impl& w) {
   }
 }
 
-void joinAll(World::Impl& w) {
-  Islands& islands = w.local.islands;
-  islands = jointIslands(w);
-  for (const ContactPair& pair : w.contacts.pairs) join(w.bodies, islands, pair.a, pair.b);
-  for (const auto& [a, b] : w.local.joins) join(w.bodies, islands, a, b);
-  if (w.settings.contact && !w.softCollider.empty()) {
-    const double margin = w.settings.contact->margin;
-    for (const SoftTouch& touch : w.softCollider.find(w.bodies.pose, w.ahead, margin)) {
-      const SoftElement& element = w.softCollider.element(touch.element);
-      join(w.bodies, islands, element.from, element.to);
-      join(w.bodies, islands, element.from, touch.body);
-    }
-  }
-  settle(islands, w.bodies.active);
-}
-
 // The island's number is the largest that one of its bodies wants.
 void numberIslands(World::Impl& w) {
   Local& local = w.local;
@@ -94,12 +78,18 @@ Group& groupOf(World::Impl& w, int substeps) {
   std::vector<Group>& groups = w.local.groups;
   const auto at = std::find_if(groups.begin(), groups.end(),
                                [&](const Group& group) { return group.substeps == substeps; });
-  return at == groups.end() ? groups.emplace_back(Group{substeps, {}, {}, {}, {}, {}, {}}) : *at;
+  if (at != groups.end()) return *at;
+  groups.emplace_back().substeps = substeps;
+  return groups.back();
 }
 
 void share(World::Impl& w) {
   const std::vector<int>& substeps = w.local.substeps;
-  for (const BodyId i : w.bodies.active) groupOf(w, substeps[i]).bodies.push_back(i);
+  for (const BodyId i : w.bodies.active) {
+    Group& group = groupOf(w, substeps[i]);
+    group.bodies.push_back(i);
+    group.turning += !w.bodies.inverseInertia[i].isZero(0);
+  }
   for (const BodyId i : w.bodies.anisotropic) groupOf(w, substeps[i]).anisotropic.push_back(i);
   std::size_t kindIndex = 0;
   forEachKind(w.kinds, [&](auto& kind) {
@@ -130,6 +120,7 @@ void keepLayouts(std::vector<Group>& old, std::vector<Group>& groups) {
 void exchange(World::Impl& w, Group& group) {
   w.bodies.active.swap(group.bodies);
   w.bodies.anisotropic.swap(group.anisotropic);
+  std::swap(w.turning, group.turning);
   w.contacts.pairs.swap(group.contacts);
   w.softContacts.swap(group.softContacts);
   std::swap(w.joints, group.joints);
@@ -145,9 +136,26 @@ bool stepsLocally(const Settings& settings) {
          (settings.method == Method::kNonlinearGaussSeidel || settings.method == Method::kDirect);
 }
 
+void joinAll(World::Impl& w) {
+  Islands& islands = w.local.islands;
+  islands = jointIslands(w);
+  for (const ContactPair& pair : w.contacts.pairs) join(w.bodies, islands, pair.a, pair.b);
+  for (const auto& [a, b] : w.local.joins) join(w.bodies, islands, a, b);
+  if (w.settings.contact && !w.softCollider.empty()) {
+    const double margin = w.settings.contact->margin;
+    for (const SoftTouch& touch : w.softCollider.find(w.bodies.pose, w.ahead, margin)) {
+      const SoftElement& element = w.softCollider.element(touch.element);
+      join(w.bodies, islands, element.from, element.to);
+      join(w.bodies, islands, element.from, touch.body);
+    }
+  }
+  settle(islands, w.bodies.active);
+}
+
 void takeGroups(World::Impl& w) {
   if (!stepsLocally(w.settings)) return;
   makeRoom(w);
+  if (w.local.full) return w.local.groups.clear();
   lookAhead(w);
   notePresence(w);
   std::vector<Group> old;
@@ -167,7 +175,10 @@ void enter(World::Impl& w, Group& group) {
 }
 
 void leave(World::Impl& w, Group& group) {
-  for (const BodyId i : w.bodies.active) w.present[i] = kLeftOut;
+  for (const BodyId i : w.bodies.active) {
+    w.present[i] = kLeftOut;
+    w.ahead[i] = w.bodies.pose[i];  // where the groups after this one find it
+  }
   exchange(w, group);
   w.substeps = w.settings.substeps;
 }

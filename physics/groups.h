@@ -27,6 +27,7 @@ namespace physics {
 struct Group {
   int substeps = 1;
   std::vector<BodyId> bodies, anisotropic;
+  int turning = 0;
   std::array<std::vector<int>, std::tuple_size_v<Kinds>> items;
   std::vector<ContactPair> contacts;
   std::vector<SoftContact> softContacts;
@@ -39,11 +40,11 @@ struct Local {
   std::vector<int> substeps;  // by body: of this step, its island's
   std::vector<int> last;      // by body: of the step before
   std::vector<int> calm;      // by body: steps in a row that fewer would have done
+  bool full = true;           // all islands take all: they step together, and ask now and then
   Islands islands;            // of this step
   std::vector<Group> groups;  // of this step, by increasing number; kept while nothing changes
   std::vector<std::array<BodyId, 2>> joins;  // of islands that met within this step
   std::vector<Pose> start, end;              // scratch: of all, for a look from within a group
-  std::vector<Manifold> own;                 // scratch: manifolds of the group
 };
 
 // True where the World's islands may take fewer substeps than others.
@@ -56,6 +57,9 @@ void takeGroups(World::Impl& world);
 // What now steps: `group` in place of everything, and back. No group: everything.
 void enter(World::Impl& world, Group& group);
 void leave(World::Impl& world, Group& group);
+
+// Islands of all that is awake, by what is watched.
+void joinAll(World::Impl& world);
 
 // After the last group: contacts are together again.
 void leaveGroups(World::Impl& world);

@@ -1,4 +1,5 @@
-// Islands by union and find; the smaller id is the root, so that the order of joins does not matter.
+// Islands by union and find; the smaller id is the root, so that the order of joins does not
+// matter.
 #include "physics/islands.h"
 
 #include <algorithm>

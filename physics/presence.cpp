@@ -26,11 +26,11 @@ bool notePair(World::Impl& w, BodyId a, BodyId b) {
 }
 
 std::span<const Manifold> ownOf(World::Impl& w, std::span<const Manifold> found) {
-  w.local.own.clear();
+  w.own.clear();
   for (const Manifold& manifold : found) {
-    if (notePair(w, manifold.a, manifold.b)) w.local.own.push_back(manifold);
+    if (notePair(w, manifold.a, manifold.b)) w.own.push_back(manifold);
   }
-  return w.local.own;
+  return w.own;
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ void notePresence(World::Impl& w) {
 }
 
 void keepStart(World::Impl& w) {
-  if (w.sleep.count == 0 && !stepsLocally(w.settings)) return;
+  if (w.sleep.count == 0 && (!stepsLocally(w.settings) || w.local.full)) return;
   w.kept.contacts = w.contacts.pairs;
   w.kept.history = w.bodies.second.history;
   w.kept.unresolved = w.stepper.unresolved;
@@ -96,7 +96,8 @@ void keepStart(World::Impl& w) {
 void takeBack(World::Impl& w) {
   for (const BodyId i : w.bodies.active) {
     w.bodies.start[i] = w.bodies.pose[i] = w.last.pose[i];
-    w.bodies.velocity[i] = w.last.velocity[i];
+    const bool isDriven = w.bodies.motion[i] == Motion::kKinematic;  // arms may have done it
+    if (!isDriven) w.bodies.velocity[i] = w.last.velocity[i];
   }
   w.contacts.pairs = w.kept.contacts;
   w.bodies.second.history = w.kept.history;

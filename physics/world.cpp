@@ -137,9 +137,9 @@ void finish(World::Impl& w, double h, StepReport& report) {
 void countSubstep(const World::Impl& w, StepReport& report) {
   ++report.substeps;
   report.work.moves += static_cast<std::int64_t>(w.bodies.active.size());
-  for (const BodyId i : w.bodies.active) report.work.turns += !w.bodies.inverseInertia[i].isZero(0);
+  report.work.turns += w.turning;
   report.work.gyroscopic += static_cast<std::int64_t>(
-      w.settings.leavesOut ? w.bodies.anisotropic.size() : w.bodies.active.size());
+      w.settings.leavesOut ? w.bodies.anisotropic.size() : static_cast<std::size_t>(w.turning));
 }
 
 void countLooks(const Collider::Counts& before, const Collider::Counts& after, StepReport& report) {

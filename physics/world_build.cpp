@@ -101,6 +101,7 @@ BodyId World::add(const BodyDef& def) {
   b.shape.push_back(def.shape);
   b.friction.push_back(friction);
   if (def.motion != Motion::kStatic) b.active.push_back(id);
+  w.turning += !inverse.isZero(0);
   if (inverse.x() != inverse.y() || inverse.y() != inverse.z()) b.anisotropic.push_back(id);
   w.loads.emplace_back();
   w.last.pose.push_back(b.pose.back());

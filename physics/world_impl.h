@@ -24,7 +24,7 @@ struct World::Impl {
   Settings settings;
   std::int64_t stepCount = 0;
   Bodies bodies;
-  std::vector<Load> loads;  // for the next step, cleared after it
+  std::vector<Load> loads;     // for the next step, cleared after it
   std::vector<BodyId> loaded;  // those that have one
   Kinds kinds;
   std::vector<DrivenArm> arms;
@@ -45,14 +45,16 @@ struct World::Impl {
   ImpulseSystem impulses;                   // sequential impulses only
   PenaltySystem penalty;                    // penalty forces only
   std::vector<Velocity> velocityBefore;     // free of contacts, restitution only
-  std::vector<Pose> ahead;  // scratch: poses at the end of the step, as far as now is known
-  Islands joined;           // by constraints; empty: not known yet
+  std::vector<Pose> ahead;     // scratch: poses at the end of the step, as far as now is known
+  Islands joined;              // by constraints; empty: not known yet
   std::vector<bool> attached;  // by body: a constraint holds or pushes it; empty: not known yet
-  Sleep sleep;              // where bodies may
-  Local local;              // local substeps only
-  int substeps = 1;         // of what now steps
-  int substep = 0;          // the present one
-  std::vector<char> present;  // by body, filled where some are left out: of the present substep
+  Sleep sleep;                 // where bodies may
+  Local local;                 // local substeps only
+  int turning = 0;             // how many of the active bodies a torque can turn
+  int substeps = 1;            // of what now steps
+  int substep = 0;             // the present one
+  std::vector<char> present;   // by body, filled where some are left out: of the present substep
+  std::vector<Manifold> own;   // scratch: those found that are of it
   std::vector<std::array<BodyId, 2>> met;  // with the second left out: the step is made anew
 
   struct Snapshot {  // the last good state

@@ -39,7 +39,7 @@ std::size_t bytesOf(const Sleep& s) {
 std::size_t bytesOf(const Local& l) {
   std::size_t sum = bytesOf(l.asked) + bytesOf(l.wanted) + bytesOf(l.substeps) + bytesOf(l.last) +
                     bytesOf(l.calm) + bytesOf(l.islands) + bytesOf(l.groups) + bytesOf(l.joins) +
-                    bytesOf(l.start) + bytesOf(l.end) + bytesOf(l.own);
+                    bytesOf(l.start) + bytesOf(l.end);
   for (const Group& group : l.groups) {
     sum += bytesOf(group.bodies) + bytesOf(group.anisotropic) + bytesOf(group.contacts) +
            bytesOf(group.softContacts);
@@ -79,7 +79,7 @@ std::vector<EffectMemory> World::memory() const {
   add("restitution", bytesOf(w.velocityBefore) + bytesOf(w.attached));
   add("stepping", bytesOf(w.bodies.second) + bytesOf(w.stepper) + bytesOf(w.contactsBefore));
   add("direct", bytesOf(w.jointRows) + bytesOf(w.jointChange) + bytesOf(w.jointMotion));
-  add("sleep", bytesOf(w.sleep));
+  add("sleep", bytesOf(w.sleep) + bytesOf(w.present) + bytesOf(w.own));
   add("local_substeps", bytesOf(w.local));
   return memory;
 }

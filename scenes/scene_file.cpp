@@ -27,8 +27,8 @@ void readHead(TableReader& root, Scene& scene) {
 
 // Every word there is, so that a misspelt table is reported before what it lacks is missed.
 void checkWords(TableReader& root) {
-  for (const char* word : {"title", "description", "duration", "simulation", "gravity", "contact", "sleep",
-                           "camera", "overlays", "golden", "expect"}) {
+  for (const char* word : {"title", "description", "duration", "simulation", "gravity", "contact",
+                           "sleep", "camera", "overlays", "golden", "expect"}) {
     root.take(word);
   }
   for (const Word& word : bodyWords()) root.take(word.name);

@@ -6,9 +6,9 @@
 
 namespace scenes {
 
-// [simulation] [gravity] [contact] [sleep] -> scene.settings, fps and seed. Contacts are on where there is
-// a [contact] table, a plane or a body with friction of its own, unless `[contact] enabled =
-// false`.
+// [simulation] [gravity] [contact] [sleep] -> scene.settings, fps and seed. Contacts are on where
+// there is a [contact] table, a plane or a body with friction of its own, unless `[contact] enabled
+// = false`.
 void readSettings(TableReader& root, Scene& scene);
 
 // [camera] [overlays] [golden] and [[expect]].

@@ -23,7 +23,7 @@ struct FrameMetrics {
   double maxSpeed = 0;
   int contacts = 0;
   int iterations = 0;
-  int asleep = 0;  // bodies
+  int asleep = 0;                   // bodies
   int restarts = 0, fallbacks = 0;  // of second-order steppings, body by body; physics/report.h
 };
 

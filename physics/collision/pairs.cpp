@@ -197,8 +197,8 @@ bool Pairs::takeMotions(std::span<const Pose> start, std::span<const Pose> end, 
   return all;
 }
 
-void Pairs::takeBounds(int i, std::span<const Pose> start, std::span<const Pose> end,
-                       double margin, bool all) {
+void Pairs::takeBounds(int i, std::span<const Pose> start, std::span<const Pose> end, double margin,
+                       bool all) {
   const Item& item = items_[i];
   if (item.solid.kind == Kind::plane) return;
   const Bounds path = swept(item.solid, start[item.body], end[item.body]);

@@ -16,8 +16,8 @@ struct Item {
   BodyId body = 0;
   bool movable = false;
   bool rests = false;  // stands still until it is woken
-  double travel = 0;  // length of the way of its points so far, at most [m]
-  double turn = 0;    // the furthest that turning moves a point of the core in this step [m]
+  double travel = 0;   // length of the way of its points so far, at most [m]
+  double turn = 0;     // the furthest that turning moves a point of the core in this step [m]
   Vec3 move = Vec3::Zero();
   Vec3 x = Vec3::Zero();  // at the start
   Mat3 R = Mat3::Identity();

@@ -81,11 +81,11 @@ bool Pairs::canTouch() const {
 
 std::size_t Pairs::bytes() const {
   std::size_t sum = bytesOf(items_) + bytesOf(fat_) + bytesOf(indexOf_) + bytesOf(planes_) +
-                    bytesOf(moving_) + bytesOf(late_) + bytesOf(treeIndex_) +
-                    bytesOf(itemOfTree_) + bytesOf(ignored_) + bytesOf(keys_) + bytesOf(fresh_) +
-                    bytesOf(merged_) + bytesOf(parked_) + bytesOf(watches_) + bytesOf(findings_) +
-                    bytesOf(free_) + bytesOf(moved_) + bytesOf(movedTree_) + bytesOf(treeBounds_) +
-                    bytesOf(found_) + tree_.bytes();
+                    bytesOf(moving_) + bytesOf(late_) + bytesOf(treeIndex_) + bytesOf(itemOfTree_) +
+                    bytesOf(ignored_) + bytesOf(keys_) + bytesOf(fresh_) + bytesOf(merged_) +
+                    bytesOf(parked_) + bytesOf(watches_) + bytesOf(findings_) + bytesOf(free_) +
+                    bytesOf(moved_) + bytesOf(movedTree_) + bytesOf(treeBounds_) + bytesOf(found_) +
+                    tree_.bytes();
   for (const Item& item : items_) sum += bytesOf(item.solid.edges);
   return sum;
 }

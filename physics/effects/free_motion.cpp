@@ -17,7 +17,7 @@ void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
   Pose& pose = bodies.pose[i];
   Vec3& w = bodies.velocity[i].w;
   if (!bodies.general && isIsotropic(bodies.inertia[i])) {  // the gyroscopic torque is zero
-    w += dt * bodies.inverseInertia[i].x() * torque;  // (30)
+    w += dt * bodies.inverseInertia[i].x() * torque;        // (30)
     bodies.freeTurn[i] = dt * w;
   } else {
     const Mat3 rotation = pose.q.toRotationMatrix();

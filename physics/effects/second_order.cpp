@@ -163,6 +163,7 @@ void balance(Bodies& bodies) {
 
 void balance(Bodies& bodies, Scheme scheme) {
   const SecondOrder& s = bodies.second;
+  if (s.empty()) return;
   for (const BodyId i : bodies.active) {
     if (s.scheme[i] != scheme || !turnsByTorque(bodies, i)) continue;
     if (s.twist[i].isZero(0) && s.jointTwist[i].isZero(0)) continue;

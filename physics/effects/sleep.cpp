@@ -28,6 +28,9 @@ bool countStill(World::Impl& w, int enough) {
     still = isSlow(w.bodies, i, w.settings.sleep->speed) ? std::min(still + 1, enough) : 0;
     any = any || still == enough;
   }
+  for (const DrivenArm& arm : w.arms) {  // it may be told to move at any time
+    for (const BodyId i : arm.bodies) w.sleep.still[i] = 0;
+  }
   return any;
 }
 
@@ -93,10 +96,12 @@ void listAwake(World::Impl& w) {
   Bodies& b = w.bodies;
   b.active.clear();
   b.anisotropic.clear();
+  w.turning = 0;
   for (BodyId i = kWorldBody + 1; i < b.size(); ++i) {
     if (b.motion[i] == Motion::kStatic || !isAwake(i)) continue;
     b.active.push_back(i);
     const Vec3& inverse = b.inverseInertia[i];
+    w.turning += !inverse.isZero(0);
     if (inverse.x() != inverse.y() || inverse.y() != inverse.z()) b.anisotropic.push_back(i);
   }
   forEachKind(w.kinds, [&](auto& kind) {
@@ -109,6 +114,7 @@ void listAwake(World::Impl& w) {
   });
   w.joints = JointSystem{};
   w.local.groups.clear();
+  w.local.full = false;
   notePresence(w);
 }
 
@@ -128,7 +134,8 @@ bool sleeps(const Settings& settings) {
 void fallAsleep(World::Impl& w, StepReport& report) {
   if (!sleeps(w.settings)) return;
   makeRoom(w.sleep, w.bodies.pose.size());
-  const int enough = std::max(1, static_cast<int>(std::ceil(w.settings.sleep->time / w.settings.dt)));
+  const int enough =
+      std::max(1, static_cast<int>(std::ceil(w.settings.sleep->time / w.settings.dt)));
   report.work.restSpeeds += static_cast<std::int64_t>(w.bodies.active.size());
   if (countStill(w, enough)) {
     const Islands islands = watchedIslands(w);

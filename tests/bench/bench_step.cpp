@@ -69,6 +69,20 @@ std::string chain(int count, double end) {
          "direction = [1, 0, 0]\nlength = 0.2\nradius = 0.03\nmass = 1\ncount = " +
          std::to_string(count) + "\nend = { mass = " + std::to_string(end) + " }\n";
 }
+// Boxes side by side on the ground, and one that is falling from far above.
+std::string boxes(int side, const std::string& effect) {
+  return kWorld + effect + "[[grid]]\nname = \"g\"\nmass = 1\n" +
+         "shapes = [{ box = { size = [1, 1, 1] } }]\nposition = [0, 0.5, 0]\n" +
+         "spacing = [2, 1, 2]\ncounts = [" + std::to_string(side) + ", 1, " + std::to_string(side) +
+         "]\n[[body]]\nname = \"falls\"\nmass = 1\nshape = { sphere = { radius = 0.5 } }\n" +
+         "position = [0, 300, 0]\n";
+}
+std::string chainAndBoxes() {
+  const std::string swings = chain(20, 100);  // brings gravity along
+  return swings + kWorld.substr(kWorld.find("[contact]")) +
+         "[[grid]]\nname = \"g\"\nmass = 1\nshapes = [{ box = { size = [1, 1, 1] } }]\n" +
+         "position = [50, 0.5, 0]\nspacing = [2, 1, 2]\ncounts = [15, 1, 15]\n";
+}
 std::string ragdolls() {
   return kWorld +
          "[[ragdoll]]\nname = \"d\"\nskeleton = \"human\"\nposition = [0, 0.5, 0]\n"
@@ -96,6 +110,17 @@ BENCHMARK_CAPTURE(step, ragdolls100, "substeps = 8\niterations = 1\nmax_iteratio
                   ragdolls(), 0)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(120);
+BENCHMARK_CAPTURE(step, boxes10000_awake, kFalling, boxes(100, ""), 60)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(20);
+BENCHMARK_CAPTURE(step, boxes10000_asleep, kFalling, boxes(100, "[sleep]\n"), 60)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(100);
+BENCHMARK_CAPTURE(step, chain_and_boxes_substeps_everywhere, "substeps = 20\n", chainAndBoxes(), 60)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(step, chain_and_boxes_local_substeps, "substeps = 20\nlocal_substeps = true\n",
+                  chainAndBoxes(), 60)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(step, heap125, kFalling, heap(5), 0)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(240);
