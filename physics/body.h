@@ -30,7 +30,7 @@ struct BodyDef {
   Velocity velocity;
   Motion motion = Motion::kDynamic;
   std::optional<Friction> friction;  // absent: the World's
-  int substeps = 1;  // at least, of its island, with local substeps
+  int substeps = 1;                  // at least, of its island, with local substeps
 };
 
 // The inverse mass and the inverse inertia in the world frame; zeros where nothing moves.
@@ -91,9 +91,9 @@ struct Bodies {
   std::vector<Vec3> freeTurn;  // log of the predicted rotation of this substep, world frame [rad]
   std::vector<Shape> shape;
   std::vector<Friction> friction;
-  bool general = false;  // Settings::leavesOut is off: isotropic inertias turn as others do
-  std::vector<bool> isSoft;         // points of a soft surface: it touches for them
-  std::vector<BodyId> active;       // those that step: they can move, and do not sleep
+  bool general = false;        // Settings::leavesOut is off: isotropic inertias turn as others do
+  std::vector<bool> isSoft;    // points of a soft surface: it touches for them
+  std::vector<BodyId> active;  // those that step: they can move, and do not sleep
   std::vector<BodyId> anisotropic;  // those of them whose world inertia follows their turn
   SecondOrder second;
 

@@ -12,14 +12,14 @@ namespace physics {
 
 // How often a step did what only some scenes call for.
 struct StepWork {
-  std::int64_t broadPhase = 0;    // looks for pairs of bounds that overlap
-  std::int64_t narrowPhase = 0;   // distances between two shapes
-  std::int64_t contactVisits = 0; // manifolds solved, over all sweeps
-  std::int64_t frictionRows = 0;  // of these manifolds
-  std::int64_t turns = 0;         // free turns of bodies that a torque can turn, over all substeps
-  std::int64_t gyroscopic = 0;    // those of them with a gyroscopic torque
-  std::int64_t moves = 0;         // free motions of bodies, over all substeps
-  std::int64_t restSpeeds = 0;    // bodies asked whether they rest
+  std::int64_t broadPhase = 0;     // looks for pairs of bounds that overlap
+  std::int64_t narrowPhase = 0;    // distances between two shapes
+  std::int64_t contactVisits = 0;  // manifolds solved, over all sweeps
+  std::int64_t frictionRows = 0;   // of these manifolds
+  std::int64_t turns = 0;          // free turns of bodies that a torque can turn, over all substeps
+  std::int64_t gyroscopic = 0;     // those of them with a gyroscopic torque
+  std::int64_t moves = 0;          // free motions of bodies, over all substeps
+  std::int64_t restSpeeds = 0;     // bodies asked whether they rest
   int madeAnew = 0;  // the step, because it met bodies asleep or of another number of substeps
 };
 
@@ -35,9 +35,9 @@ struct StepReport {
   int iterations = 0;  // sweeps in all
   std::int64_t constraintEvaluations = 0;
   // Second-order steppings: substeps of single bodies that were
-  int restarts = 0;     // made without a past: at the start, and where velocities jumped
-  int fallbacks = 0;    // made by bdf2 where the symmetric scheme was asked for
-  int asleep = 0;       // bodies, at the end of the step
+  int restarts = 0;   // made without a past: at the start, and where velocities jumped
+  int fallbacks = 0;  // made by bdf2 where the symmetric scheme was asked for
+  int asleep = 0;     // bodies, at the end of the step
   StepWork work;
   double residual = 0;  // largest contact error that the last sweep met [m]
   struct NotFinite {

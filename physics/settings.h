@@ -61,9 +61,9 @@ struct Settings {
   std::optional<Vec3> gravity;             // m/s^2; absent: none
   std::optional<ContactSettings> contact;  // absent: nothing touches
   std::optional<SleepSettings> sleep;      // absent: nothing sleeps
-  bool localSubsteps = false;     // each island as many as it needs, `substeps` at the most
-  double localTolerance = 1e-4;   // error of a joint, or overlap, that asks for more [m or rad]
-  bool leavesOut = true;          // what cannot matter is not computed; false: for comparison
+  bool localSubsteps = false;    // each island as many as it needs, `substeps` at the most
+  double localTolerance = 1e-4;  // error of a joint, or overlap, that asks for more [m or rad]
+  bool leavesOut = true;         // what cannot matter is not computed; false: for comparison
 };
 
 }  // namespace physics

@@ -37,11 +37,10 @@
 namespace physics {
 
 struct ConstraintItem;
-
 class World {
  public:
-  explicit World(
-      const Settings& settings = {});  // throws std::invalid_argument on senseless settings
+  // Throws std::invalid_argument on senseless settings.
+  explicit World(const Settings& settings = {});
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
@@ -73,11 +72,10 @@ class World {
   int add(const MotorTorqueDef& def);
   void add(const SoftSurfaceDef& def);  // touches rigid bodies, where the World has contacts
   int add(const ArmDef& def);  // its links are kinematic bodies, with the next ids in a row
-  void ignoreCollision(BodyId a,
-                       BodyId b);  // joints do this for their bodies unless they `collide`
+  // Joints do this for their bodies unless they `collide`.
+  void ignoreCollision(BodyId a, BodyId b);
 
-  // Moves everything by settings().dt.
-  StepReport step();
+  StepReport step();  // moves everything by settings().dt
 
   // Between steps:
   // Every body's pose and velocity, by BodyId, from whatever found them. Multipliers and history of
@@ -85,17 +83,16 @@ class World {
   // changed, where a number is not finite or a quaternion is zero.
   bool setState(std::span<const Pose> poses, std::span<const Velocity> velocities);
   void setVelocity(BodyId body, const Velocity& velocity);
-  void setDriveTarget(int drive,
-                      const Quat& target);  // orientation of bodies[1] in bodies[0]'s frame
+  // Orientation of bodies[1] in bodies[0]'s frame.
+  void setDriveTarget(int drive, const Quat& target);
   void setArmTarget(int arm, const Vec3& target);
-  void applyForce(BodyId body, const Vec3& force,
-                  const Vec3& torque);  // for the next step only [N, N m]
+  // For the next step only [N, N m].
+  void applyForce(BodyId body, const Vec3& force, const Vec3& torque);
 
   const Settings& settings() const;
   std::int64_t stepCount() const;
   const Bodies& bodies() const;
-  int bodyCount() const;  // the world body included
-
+  int bodyCount() const;                            // the world body included
   std::vector<KindError> constraintErrors() const;  // one per kind present, in the table's order
   std::vector<ContactReport> contacts() const;      // gap <= margin
   std::vector<JointReport> joints() const;          // every pair that a constraint holds together
@@ -103,12 +100,12 @@ class World {
   std::vector<std::array<BodyId, 2>> ignoredPairs() const;  // first < second, sorted
   std::vector<VolumeReport> volumes() const;
   std::vector<ArmReport> arms() const;
-  double largestOverlap() const;  // m, over the contacts at the present poses; >= 0
-  int contactCount() const;       // points that carry an impulse
+  double largestOverlap() const;             // m, over the contacts at the present poses; >= 0
+  int contactCount() const;                  // points that carry an impulse
   std::vector<EffectMemory> memory() const;  // what is held now, "bodies" first
   bool isAsleep(BodyId body) const;
-  int substepsOf(BodyId body) const;  // in the last step, with local substeps; else settings().substeps
-  double springEnergy() const;    // J, of every force that has a potential
+  int substepsOf(BodyId body) const;  // in the last step
+  double springEnergy() const;        // J, of every force that has a potential
   double gradientError() const;  // largest difference of a gradient from central differences of its
                                  // error, relative to the gradient's largest entry (self-check)
   Vec3 driveTorque(int drive) const;  // on bodies[1], last substep [N m]

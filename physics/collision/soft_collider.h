@@ -44,8 +44,8 @@ class SoftCollider {
   // Every place whose gap at `start` is at most `margin` [m] plus the way that element and body
   // make towards each other until `end`; taken at `start`, so that nothing passes through a thin
   // body. Ordered by element and body, valid until the next call; allocates only while it grows.
-  // `leftOut`, where not empty, by body: an element and a body that both are, or are static, are not
-  // looked at.
+  // `leftOut`, where not empty, by body: an element and a body that both are, or are static, are
+  // not looked at.
   std::span<const SoftTouch> find(std::span<const Pose> start, std::span<const Pose> end,
                                   double margin, std::span<const char> leftOut = {});
 
