@@ -30,14 +30,19 @@ Bodies::Bodies() {
   colorProgram_ = makeProgram(kBodyVertex, kBodyFragment);
   casterProgram_ = makeProgram(kBodyVertex, kCasterFragment, "#define CASTER\n");
   instanceBuffer_ = makeBuffer();
+  casterBuffer_ = makeBuffer();
   shapes_.push_back(upload(unitBox(), true));
   for (const auto make : {unitSphere, unitCapsule, unitCylinder})
     for (const int segments : kSegments) shapes_.push_back(upload(make(segments), true));
 }
 
-Bodies::Shape Bodies::upload(const Geometry& geometry, bool closed) const {
-  Shape shape{makeVertexArray(), makeBuffer(), makeBuffer(),
-              static_cast<GLsizei>(geometry.indices.size()), closed};
+Bodies::Shape Bodies::upload(const Geometry& geometry, bool closed) {
+  Shape shape{makeVertexArray(),
+              makeBuffer(),
+              makeBuffer(),
+              static_cast<GLsizei>(geometry.indices.size()),
+              closed,
+              ++uploads_};
   glBindVertexArray(shape.array);
   fillBuffer(GL_ARRAY_BUFFER, shape.vertices, geometry.vertices, GL_STATIC_DRAW);
   fillBuffer(GL_ELEMENT_ARRAY_BUFFER, shape.indices, geometry.indices, GL_STATIC_DRAW);
@@ -112,7 +117,7 @@ void Bodies::sortInstances(const Picture& picture, const Frame& frame) {
                             ? instance.size.cwiseAbs().maxCoeff()
                             : std::max(std::abs(instance.size.x()), std::abs(instance.size.z()));
     const float pixels = frame.pixelsPerMetre * thick / 2 / std::max(depth, frame.nearest);
-    sorted_.push_back({shapeOf(instance, pixels), i, depth, alpha >= 1, alpha >= 0.5f});
+    sorted_.push_back({shapeOf(instance, pixels), i, depth, alpha >= 1});
   }
   const auto key = [](const Sorted& s) {
     return s.opaque ? std::tuple(0, s.shape, s.depth, s.instance)
@@ -122,24 +127,40 @@ void Bodies::sortInstances(const Picture& picture, const Frame& frame) {
             [key](const Sorted& a, const Sorted& b) { return key(a) < key(b); });
 }
 
+Bodies::InstanceData Bodies::dataOf(const Instance& instance) {
+  const bool capsule = instance.primitive == Primitive::kCapsule;
+  const Vec3f& p = instance.position;
+  const Eigen::Vector4f turn = instance.orientation.normalized().coeffs();
+  const Vec3f scale = capsule ? Vec3f::Constant(instance.size.x()) : instance.size;
+  const Color c = linearColor(instance.color);
+  return {{p.x(), p.y(), p.z(), capsule ? instance.size.y() / 2 : 0.0f},
+          {turn.x(), turn.y(), turn.z(), turn.w()},
+          {scale.x(), scale.y(), scale.z(), instance.marked ? 1.0f : 0.0f},
+          {c.x(), c.y(), c.z(), c.w()}};
+}
+
 void Bodies::fillBatches(const Picture& picture) {
   data_.clear();
   batches_.clear();
   for (const Sorted& s : sorted_) {
-    const Instance& instance = picture.instances[s.instance];
-    const bool capsule = instance.primitive == Primitive::kCapsule;
-    const Vec3f& p = instance.position;
-    const Eigen::Vector4f turn = instance.orientation.normalized().coeffs();
-    const Vec3f scale = capsule ? Vec3f::Constant(instance.size.x()) : instance.size;
-    const Color c = linearColor(instance.color);
-    data_.push_back({{p.x(), p.y(), p.z(), capsule ? instance.size.y() / 2 : 0.0f},
-                     {turn.x(), turn.y(), turn.z(), turn.w()},
-                     {scale.x(), scale.y(), scale.z(), instance.marked ? 1.0f : 0.0f},
-                     {c.x(), c.y(), c.z(), c.w()}});
-    const bool same = !batches_.empty() && batches_.back().shape == s.shape &&
-                      batches_.back().opaque == s.opaque && batches_.back().casts == s.casts;
-    if (!same) batches_.push_back({s.shape, data_.size() - 1, 0, s.opaque, s.casts});
+    data_.push_back(dataOf(picture.instances[s.instance]));
+    const bool same =
+        !batches_.empty() && batches_.back().shape == s.shape && batches_.back().opaque == s.opaque;
+    if (!same) batches_.push_back({s.shape, data_.size() - 1, 0, s.opaque});
     ++batches_.back().count;
+  }
+}
+
+void Bodies::findCasters(const Picture& picture) {
+  casters_.clear();
+  if (!picture.light.shadows) return;
+  std::vector<const Sorted*> inOrder(picture.instances.size(), nullptr);
+  for (const Sorted& s : sorted_) inOrder[s.instance] = &s;
+  for (std::size_t i = 0; i < inOrder.size(); ++i) {
+    if (inOrder[i] == nullptr || picture.instances[i].color.w() < 0.5f) continue;
+    const InstanceData data = dataOf(picture.instances[i]);
+    const std::size_t shape = inOrder[i]->shape;
+    casters_.push_back({shape, shapes_[shape].upload, data.place, data.turn, data.scale});
   }
 }
 
@@ -147,22 +168,37 @@ void Bodies::arrange(const Picture& picture, const Frame& frame) {
   sortInstances(picture, frame);
   dropUnusedMeshes();
   fillBatches(picture);
+  findCasters(picture);
   fillBuffer(GL_ARRAY_BUFFER, instanceBuffer_, data_, GL_STREAM_DRAW);
 }
 
-void Bodies::drawBatch(const Batch& batch) const {
+void Bodies::drawBatch(const Batch& batch, GLuint instances) const {
   const Shape& shape = shapes_[batch.shape];
   glBindVertexArray(shape.array);
-  glBindBuffer(GL_ARRAY_BUFFER, instanceBuffer_);
+  glBindBuffer(GL_ARRAY_BUFFER, instances);
   const std::size_t start = batch.first * sizeof(InstanceData);
   for (GLuint i = 0; i < 4; ++i) setAttribute(3 + i, 4, sizeof(InstanceData), start + 16 * i);
   glDrawElementsInstanced(GL_TRIANGLES, shape.count, GL_UNSIGNED_INT, nullptr, batch.count);
 }
 
-void Bodies::drawCasters() const {
+void Bodies::drawCasters(std::span<const std::size_t> which) {
+  if (which.empty()) return;
+  std::vector<std::size_t> byShape(which.begin(), which.end());
+  std::stable_sort(byShape.begin(), byShape.end(), [this](std::size_t a, std::size_t b) {
+    return casters_[a].shape < casters_[b].shape;
+  });
+  std::vector<InstanceData> data;
+  std::vector<Batch> batches;
+  for (const std::size_t i : byShape) {
+    const Caster& caster = casters_[i];
+    data.push_back({caster.place, caster.turn, caster.scale, {}});
+    if (batches.empty() || batches.back().shape != caster.shape)
+      batches.push_back({caster.shape, data.size() - 1, 0, true});
+    ++batches.back().count;
+  }
+  fillBuffer(GL_ARRAY_BUFFER, casterBuffer_, data, GL_STREAM_DRAW);
   glUseProgram(casterProgram_);
-  for (const Batch& batch : batches_)
-    if (batch.casts) drawBatch(batch);
+  for (const Batch& batch : batches) drawBatch(batch, casterBuffer_);
 }
 
 void Bodies::draw() const {
@@ -176,7 +212,7 @@ void Bodies::draw() const {
       glDisable(GL_BLEND);
     else
       glEnable(GL_BLEND);
-    drawBatch(batch);
+    drawBatch(batch, instanceBuffer_);
   }
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);

@@ -11,6 +11,9 @@ struct Bounds {  // shares of the width and height, from the lower left; low > h
   Eigen::Array2f low{1, 1}, high{0, 0};
 
   bool empty() const { return (low >= high).any(); }
+  bool operator==(const Bounds& other) const {
+    return (low == other.low).all() && (high == other.high).all();
+  }
   void include(const Eigen::Array2f& from, const Eigen::Array2f& to);
 };
 

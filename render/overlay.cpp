@@ -23,9 +23,12 @@ void drawLabel(Canvas& canvas, const Label& label, const Frame& frame, int width
 
 }  // namespace
 
+bool hasOverlay(const Picture& picture) {
+  return !picture.labels.empty() || !picture.caption.empty() || picture.hud.visible;
+}
+
 void drawOverlay(Canvas& canvas, const Picture& picture, const Frame& frame, int width,
                  int height) {
-  if (picture.labels.empty() && picture.caption.empty() && !picture.hud.visible) return;
   const float scale = static_cast<float>(height) / 720.0f;
   canvas.begin(width, height);
   for (const Label& label : picture.labels) drawLabel(canvas, label, frame, width, height, scale);

@@ -7,6 +7,8 @@
 
 namespace render {
 
+bool hasOverlay(const Picture& picture);
+
 // Into the framebuffer that is bound, of `width` by `height` pixels.
 void drawOverlay(Canvas& canvas, const Picture& picture, const Frame& frame, int width, int height);
 

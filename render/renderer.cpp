@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "render/bodies.h"
@@ -50,6 +51,8 @@ struct Renderer::Impl {
   void drawGround(const Frame& frame) const;
   void drawBodies(const Bounds& bounds);
   void finishScene() const;
+  void drawShadows(const Frame& frame);
+  void drawLetters(const Picture& drawn, const Frame& frame);
   void readBack();
 
   Context context;  // first: all that follows lives in it
@@ -57,10 +60,11 @@ struct Renderer::Impl {
   Detail detail;
   Bodies bodies;
   Surfaces surfaces;
-  Shadow shadow;
+  std::optional<Shadow> shadow;  // made for the first picture that asks for it, as the canvas
   Floor floor;
   Strokes strokes;
-  Canvas canvas;
+  std::optional<Canvas> canvas;
+  DrawCounts counts;
   GLuint frameBuffer = 0, resolveProgram = 0, emptyArray = 0;
   GLuint bodyTexture = 0, bodyFramebuffer = 0;  // multisampled, or the scene's own when draft
   Sheet scene, picture;                         // the same unless supersampled
@@ -69,10 +73,8 @@ struct Renderer::Impl {
 };
 
 Renderer::Impl::Impl(const RendererOptions& wanted)
-    : options(checked(wanted)),
-      detail(detailOf(wanted.quality)),
-      shadow(detail.shadowSize),
-      canvas(wanted.fontFile.empty() ? kShippedFont : wanted.fontFile) {
+    : options(checked(wanted)), detail(detailOf(wanted.quality)) {
+  if (!wanted.fontFile.empty()) canvas.emplace(wanted.fontFile);
   frameBuffer = makeBuffer();
   resolveProgram = makeProgram(kViewportVertex, kResolveFragment);
   emptyArray = makeVertexArray();
@@ -157,6 +159,17 @@ void Renderer::Impl::finishScene() const {
   glViewport(0, 0, picture.width, picture.height);
 }
 
+void Renderer::Impl::drawShadows(const Frame& frame) {
+  if (!shadow) shadow.emplace(detail.shadowSize);
+  shadow->draw(bodies, surfaces, frame, counts);
+}
+
+void Renderer::Impl::drawLetters(const Picture& drawn, const Frame& frame) {
+  if (!canvas) canvas.emplace(kShippedFont);
+  drawOverlay(*canvas, drawn, frame, picture.width, picture.height);
+  ++counts.overlays;
+}
+
 // Rows from the top, without alpha.
 void Renderer::Impl::readBack() {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, picture.framebuffer);
@@ -186,14 +199,18 @@ const Image& Renderer::draw(const Picture& picture) {
   my.bodies.arrange(picture, frame);
   my.surfaces.arrange(picture, frame);
   my.strokes.arrange(picture, frame);
-  if (picture.light.shadows) my.shadow.draw(my.bodies, my.surfaces, frame);
+  if (picture.light.shadows) my.drawShadows(frame);
   my.drawGround(frame);
   my.drawBodies(screenBoundsOf(picture, frame));
   my.finishScene();
-  drawOverlay(my.canvas, picture, frame, my.picture.width, my.picture.height);
+  if (hasOverlay(picture)) my.drawLetters(picture, frame);
   my.readBack();
+  ++my.counts.pictures;
+  my.counts.strokes += picture.lines.empty() && picture.dots.empty() ? 0 : 1;
   return my.image;
 }
+
+const DrawCounts& Renderer::counts() const { return impl_->counts; }
 
 Renderer::Info Renderer::info() const {
   impl_->context.makeCurrent();

@@ -1,6 +1,7 @@
 // Picture in, Image out. Owns an OSMesa context; one Renderer per thread, any number of them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -15,6 +16,16 @@ struct RendererOptions {
   int width = 1280, height = 720;
   Quality quality = Quality::kStandard;
   std::string fontFile;  // TrueType; empty: the shipped font beside the program's assets
+};
+
+// What a Renderer has drawn so far. A pass that no picture asked for stays at zero.
+struct DrawCounts {
+  std::int64_t pictures = 0;
+  std::int64_t shadowMaps = 0;   // drawn, where something moved since the last picture
+  std::int64_t casters = 0;      // bodies drawn into them
+  std::int64_t shadowMasks = 0;  // soft shadows on the ground, filtered
+  std::int64_t strokes = 0;      // pictures with lines, arrows or dots
+  std::int64_t overlays = 0;     // pictures with letters or a HUD
 };
 
 class Renderer {
@@ -32,6 +43,7 @@ class Renderer {
     std::string vendor, renderer, version;
   };
   Info info() const;
+  const DrawCounts& counts() const;
 
  private:
   struct Impl;

@@ -110,6 +110,7 @@ void Strokes::arrange(const Picture& picture, const Frame& frame) {
   for (const Line& line : picture.lines)
     if (line.onTop) addLine(frame, line);
   for (const Dot& dot : picture.dots) addDot(frame, dot);
+  if (vertices_.empty()) return;
   fillBuffer(GL_ARRAY_BUFFER, buffer_, vertices_, GL_STREAM_DRAW);
 }
 

@@ -91,6 +91,10 @@ void Surfaces::draw(const Batch& batch) const {
   drawTriangles(batch);
 }
 
+bool Surfaces::cast() const {
+  return std::any_of(batches_.begin(), batches_.end(), [](const Batch& b) { return b.casts(); });
+}
+
 void Surfaces::drawCasters() const {
   glUseProgram(casterProgram_);
   glBindVertexArray(array_);

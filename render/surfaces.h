@@ -17,6 +17,7 @@ class Surfaces {
 
   void arrange(const Picture& picture, const Frame& frame);
 
+  bool cast() const;             // something of them goes into a shadow map
   void drawCasters() const;      // opaque and half opaque ones, into a shadow map
   void drawOpaque() const;       // before translucent bodies
   void drawTranslucent() const;  // after them, back to front, the sides that look away first
