@@ -1,6 +1,7 @@
 // What a step leaves out, and what it does when it meets it.
 #include "physics/presence.h"
 
+#include "physics/probe.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -54,12 +55,14 @@ bool findContacts(World::Impl& w, std::span<const Pose> target) {
   if (leavesOut(w)) found = ownOf(w, found);
   if (!w.met.empty()) return false;
   update(w.contacts, found, w.bodies);
+  turnTo("");
   return true;
 }
 
 // Points and links are looked at anew in every substep: their planes turn quickly.
 bool findSoftContacts(World::Impl& w) {
   if (!w.settings.contact || w.softCollider.empty()) return true;
+  turnTo("soft_contact");
   const double margin = w.settings.contact->margin;
   const bool leaves = leavesOut(w);
   const std::span<const char> leftOut = leaves ? w.present : std::span<const char>{};

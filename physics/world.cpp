@@ -11,6 +11,7 @@
 #include "physics/methods/nonlinear_gauss_seidel.h"
 #include "physics/methods/rival.h"
 #include "physics/presence.h"
+#include "physics/probe.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -92,27 +93,40 @@ bool goesOn(const World::Impl& w, const StepReport& report) {
 
 // From X^t, v^t to the displaced poses, by the schemes as they stand.
 void displaceAll(World::Impl& w, int k, double h, StepReport& report) {
+  turnTo("motion");
   if (isSecondOrder(w.settings)) {
     w.stepper.lost.clear();
     moveFreelySecondOrder(w.bodies, w.loads, w.settings.gravity, h);
   } else {
     moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)
   }
+  turnTo("inertia");
   refreshInverseMasses(w, h);
+  turnTo("");
   checkFinite(w, report);
   if (report.notFinite || !lookForContacts(w, k, h)) return;
-  if (w.settings.method == Method::kDirect) prepareDirect(w);
+  if (w.settings.method == Method::kDirect) {
+    turnTo("direct");
+    prepareDirect(w);
+  }
   prepareConstraints(w, h);        // multipliers of the last substep, gaps and anchors at X^t
   solveConstraints(w, h, report);  // Delta X (52),(53)
+}
+
+bool lowersSchemes(World::Impl& w, double h) {
+  turnTo("schemes");
+  return lowerSchemes(w, h);
 }
 
 // A scheme that the solve does not bear out is lowered and the substep made anew; the third time
 // everything steps by the paper's.
 void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
+  turnTo("schemes");
   w.contactsBefore = w.contacts.pairs;
   chooseSchemes(w);
   displaceAll(w, k, h, report);
-  for (int again = 0; again < 3 && goesOn(w, report) && lowerSchemes(w, h); ++again) {
+  for (int again = 0; again < 3 && goesOn(w, report) && lowersSchemes(w, h); ++again) {
+    turnTo("schemes");
     if (again == 2) stepByPaper(w);
     rewind(w.bodies);
     w.contacts.pairs = w.contactsBefore;
@@ -121,17 +135,26 @@ void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
 }
 
 void finish(World::Impl& w, double h, StepReport& report) {
+  turnTo("");
   const double restitution = w.touches ? w.settings.contact->restitution : 0;
   if (restitution > 0) w.velocityBefore = w.bodies.velocity;
   if (isSecondOrder(w.settings)) {
+    turnTo("schemes");
     finishSecondOrder(w.bodies, w.loads, w.settings.gravity);
     projectVelocities(w);
   } else {
     finishVelocities(w.bodies, h);  // (43)-(46)
   }
   std::vector<bool> jumped;
-  if (restitution > 0) jumped = restitute(w.contacts, w.bodies, restitution, w.flight(h));
-  if (isSecondOrder(w.settings)) recordSchemes(w, jumped, report);
+  if (restitution > 0) {
+    turnTo("restitution");
+    jumped = restitute(w.contacts, w.bodies, restitution, w.flight(h));
+  }
+  if (isSecondOrder(w.settings)) {
+    turnTo("schemes");
+    recordSchemes(w, jumped, report);
+  }
+  turnTo("");
 }
 
 void countSubstep(const World::Impl& w, StepReport& report) {
@@ -149,9 +172,12 @@ void countLooks(const Collider::Counts& before, const Collider::Counts& after, S
 
 // A whole substep of a rival, from contacts found as for the other methods.
 void substepOfRival(World::Impl& w, int k, double h, StepReport& report) {
+  turnTo("motion");
   coast(w, h);
   lookForContacts(w, k, h);
+  turnTo("rival");
   rivalSubstep(w, h, report);
+  turnTo("");
   checkFinite(w, report);
   countSubstep(w, report);
 }
@@ -183,7 +209,9 @@ void begin(World::Impl& w) {
     w.last.pose[i] = w.bodies.pose[i];
     w.last.velocity[i] = w.bodies.velocity[i];
   }
+  turnTo("arm");
   drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
+  turnTo("");
   keepStart(w);
 }
 
@@ -204,8 +232,11 @@ void end(World::Impl& w, StepReport& report) {
   if (report.notFinite) {
     restore(w);
   } else {
+    turnTo("local_substeps");
     askForSubsteps(w);
+    turnTo("sleep");
     fallAsleep(w, report);
+    turnTo("");
   }
   for (const BodyId i : w.loaded) w.loads[i] = {};
   w.loaded.clear();
@@ -220,7 +251,9 @@ StepReport World::step() {
   StepReport report;
   begin(w);
   do {
+    turnTo("local_substeps");
     takeGroups(w);
+    turnTo("");
     if (w.local.groups.empty()) substeps(w, report);
     for (Group& group : w.local.groups) {
       enter(w, group);

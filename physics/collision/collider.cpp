@@ -8,6 +8,7 @@
 #include "physics/collision/narrow.h"
 #include "physics/collision/pairs.h"
 #include "physics/collision/sweep.h"
+#include "physics/probe.h"
 
 namespace physics {
 
@@ -139,8 +140,11 @@ std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<
                                          double margin) {
   require(margin >= 0, "collider: margin must not be negative");
   if (!impl_) return {};
+  turnTo("broad_phase");
   impl_->pairs.update(start, end, margin);
+  turnTo("narrow_phase");
   impl_->lookAtAll({start, end, margin});
+  turnTo("contact");
   return impl_->manifolds;
 }
 

@@ -7,6 +7,7 @@
 #include "physics/effects/second_order.h"
 #include "physics/methods/active_set.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
+#include "physics/probe.h"
 
 namespace physics {
 namespace {
@@ -278,6 +279,7 @@ void projectJoints(World::Impl& world) {
 
 void direct(World::Impl& world, double dt, StepReport& report) {
   iterate(world, dt, report, [&] {
+    turnTo("direct");
     report.constraintEvaluations += static_cast<std::int64_t>(world.jointRows.size());
     if (newtonStep(world, dt)) return true;
     report.notFinite = {report.substeps, world.jointRows.front().bodies[1], "joints together"};

@@ -6,6 +6,7 @@
 #include "physics/constraint_symmetric.h"
 #include "physics/effects/second_order.h"
 #include "physics/methods/direct.h"
+#include "physics/probe.h"
 
 namespace physics {
 namespace {
@@ -35,6 +36,8 @@ bool solveOne(Set<C>& set, std::size_t k, Bodies& bodies, const Configuration& a
 template <class K>
 bool sweepKind(K& kind, Bodies& bodies, double dt, bool joints, StepReport& report) {
   auto& set = kind.set;
+  if (set.active.empty()) return true;
+  turnTo(K::kWord);
   const Configuration at{bodies.pose, bodies.start, dt};
   for (const int k : set.active) {
     if (!joints && isSolvedDirectly(set.items[k])) continue;
@@ -49,6 +52,7 @@ bool sweepKind(K& kind, Bodies& bodies, double dt, bool joints, StepReport& repo
 bool sweepContacts(World::Impl& world, double dt, bool backward, StepReport& report) {
   report.residual = 0;
   if (!world.settings.contact) return true;
+  turnTo("contact");
   const double allowance = world.settings.contact->maxSeparationSpeed * dt;
   auto& pairs = world.contacts.pairs;
   report.constraintEvaluations += static_cast<std::int64_t>(pairs.size());
@@ -69,6 +73,7 @@ bool sweepContacts(World::Impl& world, double dt, bool backward, StepReport& rep
 
 bool sweepSoftContacts(World::Impl& world, double dt, StepReport& report) {
   if (world.softContacts.empty()) return true;
+  turnTo("soft_contact");
   const double allowance = world.settings.contact->maxSeparationSpeed * dt;
   report.constraintEvaluations += static_cast<std::int64_t>(world.softContacts.size());
   for (std::size_t k = 0; k < world.softContacts.size(); ++k) {
@@ -139,6 +144,8 @@ void prepareConstraints(World::Impl& world, double dt) {
   const bool warm = world.settings.warmStartJoints && !isLinear;
   forEachKind(world.kinds, [&](auto& kind) {
     auto& set = kind.set;
+    if (set.active.empty()) return;
+    turnTo(std::decay_t<decltype(kind)>::kWord);
     for (const int k : set.active) {
       if (isDirect(world) && isSolvedDirectly(set.items[k])) {  // goes on from its last multipliers
         set.lambda[k].loaded = !set.lambda[k].total.isZero(0);
@@ -149,6 +156,7 @@ void prepareConstraints(World::Impl& world, double dt) {
               set.tuned[k].split, world.bodies, dt);
     }
   });
+  if (!world.contacts.pairs.empty()) turnTo("contact");
   for (ContactPair& pair : world.contacts.pairs) {
     prepare(pair, world.bodies, world.settings.warmStart && !isLinear);
   }
@@ -173,16 +181,21 @@ void iterate(World::Impl& world, double dt, StepReport& report,
   };
   for (int k = 0; k < limit.least || (k < limit.most && !isSettled()); ++k) {
     const int extra = k - limit.least;  // beyond the least: forwards and backwards in turn
+    turnTo(accelerated ? "contact" : "");
     if (accelerated && extra == 0) world.conjugate.begin(world.contacts);
     if (accelerated && extra > 0 && extra % 2 == 0) {
       world.conjugate.accelerate(world.contacts, world.bodies);
     }
     if (k > 0 && !isDirect(world)) balance(world.bodies);
-    if (k > 0 && world.settings.refreshInertia) refreshInverseMasses(world, dt);
+    if (k > 0 && world.settings.refreshInertia) {
+      turnTo("inertia");
+      refreshInverseMasses(world, dt);
+    }
     if (beforeSweep && !beforeSweep()) return;
     if (!sweep(world, dt, extra > 0 && extra % 2 == 1, report)) return;
     ++report.iterations;
   }
+  turnTo("");
   const bool settling = limit.tolerance < world.settings.tolerance;
   for (ContactPair& pair : world.contacts.pairs) {
     for (ContactPointState& point : pair.points) point.settled = settling;
