@@ -75,6 +75,7 @@ void Recipe::add(const TableReader& reader, Step step) {
     reader.failHere(error.what());
   }
   content_.steps.push_back(std::move(step));
+  content_.origins.push_back({reader.key(), reader.table().place});
 }
 
 unsigned Recipe::nextSeed() { return seed_ = seed_ * 1664525u + 1013904223u; }

@@ -83,8 +83,15 @@ struct Built {
 
 using Step = std::function<void(Built&)>;
 
+struct Origin {  // the table that a step was read from
+  std::string word;
+  Place place;
+};
+
 struct Scene::Content {
   std::vector<Step> steps;
+  std::vector<Origin> origins;  // one per step
+  Value tree;                   // the file with every override
 };
 
 // Collects steps. Each runs at once on a trial world, so that what the World refuses is reported at

@@ -63,6 +63,7 @@ struct Scene {
   physics::Settings settings;
   CameraDef camera;
   Overlays overlays;
+  bool shadows = true;  // [light]
   GoldenDef golden;
   std::vector<Expectation> expectations;
   std::vector<std::string> effects;  // words that switch something on, for `dbd list`

@@ -28,7 +28,7 @@ void readHead(TableReader& root, Scene& scene) {
 // Every word there is, so that a misspelt table is reported before what it lacks is missed.
 void checkWords(TableReader& root) {
   for (const char* word : {"title", "description", "duration", "simulation", "gravity", "contact",
-                           "sleep", "camera", "overlays", "golden", "expect"}) {
+                           "sleep", "camera", "light", "overlays", "golden", "expect"}) {
     root.take(word);
   }
   for (const Word& word : bodyWords()) root.take(word.name);
@@ -124,7 +124,9 @@ Scene parseScene(const std::string& text, const std::string& path,
   readWords(root, recipe, constraintWords());
   checkExpectedBodies(context, scene, recipe.trial());
   scene.effects = effectsOf(tree, scene);
-  scene.content = std::make_shared<const Scene::Content>(recipe.take());
+  Scene::Content content = recipe.take();
+  content.tree = std::move(tree);
+  scene.content = std::make_shared<const Scene::Content>(std::move(content));
   return scene;
 }
 

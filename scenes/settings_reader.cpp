@@ -157,6 +157,9 @@ void readExpectation(TableReader& reader, Scene& scene) {
 
 }  // namespace
 
+const char* wordOf(physics::Method method) { return kMethods[static_cast<int>(method)]; }
+const char* wordOf(physics::Stepping stepping) { return kSteppings[static_cast<int>(stepping)]; }
+
 void readCamera(TableReader& reader, CameraDef& camera) {
   reader(Field{"field_of_view_degrees", Unit::kNone, false, 1, 150}, camera.fieldOfViewDegrees);
   reader(Field{"direction", Unit::kDirection}, camera.direction);
@@ -219,6 +222,7 @@ void readSettings(TableReader& root, Scene& scene) {
 
 void readPresentation(TableReader& root, Scene& scene) {
   readTable(root, "camera", [&](TableReader& reader) { readCamera(reader, scene.camera); });
+  readTable(root, "light", [&](TableReader& reader) { reader(Field{"shadows"}, scene.shadows); });
   readTable(root, "overlays", [&](TableReader& reader) { readOverlays(reader, scene.overlays); });
   readTable(root, "golden", [&](TableReader& reader) { readGolden(reader, scene, scene.golden); });
   readTables(root, "expect", [&](TableReader& reader) { readExpectation(reader, scene); });

@@ -11,7 +11,10 @@ namespace scenes {
 // = false`.
 void readSettings(TableReader& root, Scene& scene);
 
-// [camera] [overlays] [golden] and [[expect]].
+const char* wordOf(physics::Method method);  // as [simulation] has it
+const char* wordOf(physics::Stepping stepping);
+
+// [camera] [light] [overlays] [golden] and [[expect]].
 void readPresentation(TableReader& root, Scene& scene);
 
 // [camera], and the same words in a figure's panel.

@@ -32,6 +32,7 @@ class TableReader {
   void finish() const;  // throws at the first key nobody asked for
 
   const Value& table() const { return table_; }
+  const std::string& key() const { return key_; }
   const Context& context() const { return context_; }
   Spot spot(const physics::Field& field) const;
   [[noreturn]] void failHere(const std::string& message) const;

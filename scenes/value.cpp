@@ -106,6 +106,25 @@ Value& memberOf(Value& table, const std::string& part, const std::string& settin
   return table.members.back().value;
 }
 
+bool isTableOrTables(const Value& value) {
+  return value.isTable() || (value.isArray() && !value.items.empty() && value.items[0].isTable());
+}
+
+// False: there is no table, or tables, at that key.
+bool removeTable(Value& root, const std::vector<std::string>& parts, const std::string& setting) {
+  Value* parent = &root;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    Value* next = parent->isArray() ? &elementOf(*parent, parts[i], parts[i - 1], setting)
+                                    : parent->find(parts[i]);
+    if (next == nullptr) return false;
+    parent = next;
+  }
+  const auto isIt = [&](const Member& m) {
+    return m.key == parts.back() && isTableOrTables(m.value);
+  };
+  return std::erase_if(parent->members, isIt) > 0;
+}
+
 }  // namespace
 
 const Value* Value::find(const std::string& key) const {
@@ -149,9 +168,11 @@ void applyOverride(Value& root, const std::string& keyAndValue) {
   std::string text = keyAndValue.substr(equals + 1);
   const auto isSpace = [](unsigned char c) { return std::isspace(c); };
   text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), isSpace));
+  const std::vector<std::string> parts = splitKey(keyAndValue.substr(0, equals), setting);
+  if (text == "none" && removeTable(root, parts, setting)) return;
   Value* target = &root;
   std::string where;
-  for (const std::string& part : splitKey(keyAndValue.substr(0, equals), setting)) {
+  for (const std::string& part : parts) {
     if (target->isArray()) {
       target = &elementOf(*target, part, where, setting);
     } else if (target->isTable()) {

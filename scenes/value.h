@@ -47,7 +47,7 @@ std::string describe(const Value& value);
 // Throws InputError("file:line:col: expected ...") where `text` is not TOML.
 Value parseToml(const std::string& text, const std::string& path);
 
-// Applies "a.b.c=value" to the tree. Arrays are addressed by index, arrays of tables by name as
+// Applies "a.b.c=value" to the tree; "a.b=none" takes a table, or all tables of that word, out. Arrays are addressed by index, arrays of tables by name as
 // well; a key that is not there is added and left to the schema to judge. Throws InputError.
 void applyOverride(Value& root, const std::string& setting);
 

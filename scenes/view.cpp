@@ -233,6 +233,7 @@ render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
   render::Picture picture;
   picture.ground = groundOf(simulation.world().bodies(), stage);
   picture.ground.visible = options.ground;
+  picture.light.shadows = simulation.scene().shadows;
   setCamera(simulation, camera, stage, options.aspect, picture);
   drawBodies(simulation, stage, picture);
   drawRods(simulation, picture);
