@@ -7,6 +7,7 @@ namespace app {
 
 // Each adds its command to the line; `action` becomes what to do when the user chose it.
 void addList(CLI::App& line, Action& action);
+void addPlan(CLI::App& line, Action& action);
 void addSimulate(CLI::App& line, Action& action);
 void addRender(CLI::App& line, Action& action);
 void addGolden(CLI::App& line, Action& action);

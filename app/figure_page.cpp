@@ -117,27 +117,37 @@ std::string showScenes(const fs::path& folder) {
   return runs.empty() ? "" : "<h1 id=\"scenes\">Scenes of the library</h1>\n" + runs;
 }
 
-// The study of DIR/study, as app/run.sh makes it: a link, and its first diagrams.
-std::string showStudy(const fs::path& folder) {
-  if (!fs::exists(folder / "study" / "index.html")) return "";
+// A study below DIR, as app/run.sh makes it.
+struct ShownStudy {
+  const char *folder, *title, *text;
+};
+constexpr ShownStudy kStudies[] = {
+    {"study", "What accuracy costs in time",
+     "Errors against wall times of every method and of other engines, measured on this machine."},
+    {"study_effects", "What each effect costs",
+     "What a scene's step saves without each of its effects, and what the program leaves out."},
+};
+
+// A link, and the first diagrams.
+std::string showStudy(const fs::path& folder, const ShownStudy& study) {
+  if (!fs::exists(folder / study.folder / "index.html")) return "";
   std::vector<std::string> diagrams;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "study")) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / study.folder)) {
     const std::string stem = entry.path().stem().string();
     if (entry.path().extension() == ".svg" && !stem.ends_with("_h")) diagrams.push_back(stem);
   }
   std::sort(diagrams.begin(), diagrams.end());
   constexpr std::size_t kMost = 4;
   diagrams.resize(std::min(diagrams.size(), kMost));
-  std::string html =
-      "<section id=\"study\"><h2><a href=\"study/index.html\">What accuracy costs in "
-      "time</a></h2>\n"
-      "<p>Errors against wall times of every method and of other engines, measured on this machine."
-      "</p>\n<div class=\"shots\">\n";
+  std::string html = fmt::format(
+      "<section id=\"{0}\"><h2><a href=\"{0}/index.html\">{1}</a></h2>\n<p>{2}</p>\n"
+      "<div class=\"shots\">\n",
+      study.folder, study.title, study.text);
   for (const std::string& name : diagrams) {
     html += fmt::format(
-        "<a href=\"study/index.html#{0}\"><img class=\"poster\" src=\"study/{0}.svg\" "
-        "alt=\"{0}\"></a>\n",
-        escapeHtml(name));
+        "<a href=\"{0}/index.html#{1}\"><img class=\"poster\" src=\"{0}/{1}.svg\" "
+        "alt=\"{1}\"></a>\n",
+        study.folder, escapeHtml(name));
   }
   return html + "</div></section>\n";
 }
@@ -152,7 +162,8 @@ fs::path writeFigurePage(const fs::path& folder) {
       "measured, and whether that holds.</p>\n" +
       contents(records);
   for (const FigureRecord& record : records) body += showFigure(record);
-  body += showStudy(folder) + showScenes(folder);
+  for (const ShownStudy& study : kStudies) body += showStudy(folder, study);
+  body += showScenes(folder);
   const fs::path page = folder / "index.html";
   writeFile(page, htmlPage("Displacement based dynamics: the figures", body));
   return page;

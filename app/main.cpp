@@ -44,6 +44,7 @@ ExitCode run(int argc, const char* const* argv) {
   line.footer(kFooter);
   app::Action action;
   app::addList(line, action);
+  app::addPlan(line, action);
   app::addSimulate(line, action);
   app::addRender(line, action);
   app::addFigures(line, action);

@@ -11,6 +11,7 @@ void addStudy(CLI::App& line, Action& action) {
   command->require_subcommand(1);
   addAccuracyStudy(*command, action);
   addOptionStudy(*command, action);
+  addEffectStudy(*command, action);
 }
 
 }  // namespace app

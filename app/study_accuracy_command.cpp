@@ -146,9 +146,7 @@ ExitCode accuracy(const AccuracyOptions& options) {
   }
   accuracy.finish();
   if (!hasGnuplot) {
-    note(
-        "dbd: no diagrams: cannot run gnuplot; install it with: sudo apt-get install -y "
-        "gnuplot-nox, and run this again\n");
+    note("dbd: no diagrams: " + gnuplotHint() + ", and run this again\n");
   }
   if (!options.common.quiet) say(summary + (folder / "index.html").string() + "\n");
   return allMeasured ? ExitCode::kDone : ExitCode::kCheckFailed;

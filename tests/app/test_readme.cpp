@@ -19,6 +19,7 @@ const std::map<std::string, std::string> kShort = {
     {"check", " --set duration=0.02 --progress none"},
     {"golden", " pendulum --progress none"},
     {"compare", ""},
+    {"plan", " --steps 2 --repeats 1"},
     {"study", " --quick --progress none"},
 };
 
