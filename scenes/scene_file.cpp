@@ -9,6 +9,7 @@
 #include "scenes/metrics.h"
 #include "scenes/recipe.h"
 #include "scenes/settings_reader.h"
+#include "scenes/stability_case.h"
 
 namespace scenes {
 namespace {
@@ -105,7 +106,9 @@ int Scene::frameCount() const { return static_cast<int>(std::lround(duration * f
 Scene parseScene(const std::string& text, const std::string& path,
                  std::span<const std::string> overrides) {
   Value tree = parseToml(text, path);
-  for (const std::string& setting : overrides) applyOverride(tree, setting);
+  for (const std::string& setting : applyStability(tree, path, overrides)) {
+    applyOverride(tree, setting);
+  }
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.path = path;

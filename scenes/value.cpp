@@ -187,6 +187,25 @@ void applyOverride(Value& root, const std::string& keyAndValue) {
   *target = parseSettingValue(text, setting);
 }
 
+const Value* findValue(const Value& root, const std::string& key) {
+  const Value* found = &root;
+  for (const std::string& part : splitKey(key, key)) {
+    const Value* next = found->find(part);
+    if (found->isArray() && isIndex(part)) {
+      const size_t index = std::stoul(part);
+      next = index < found->items.size() ? &found->items[index] : nullptr;
+    } else if (found->isArray()) {
+      for (const Value& item : found->items) {
+        const Value* name = item.find("name");
+        if (next == nullptr && name != nullptr && name->text == part) next = &item;
+      }
+    }
+    if (next == nullptr) return nullptr;
+    found = next;
+  }
+  return found;
+}
+
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string* best = nullptr;
   size_t bestDistance = std::max<size_t>(2, word.size() / 3) + 1;

@@ -51,6 +51,9 @@ Value parseToml(const std::string& text, const std::string& path);
 // well; a key that is not there is added and left to the schema to judge. Throws InputError.
 void applyOverride(Value& root, const std::string& setting);
 
+// What is at "a.b.c" by the same rules; null where nothing is.
+const Value* findValue(const Value& root, const std::string& key);
+
 // "; did you mean 'x'?" with the nearest candidate, or nothing where none is near.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
 
