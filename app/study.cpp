@@ -7,11 +7,12 @@
 namespace app {
 
 void addStudy(CLI::App& line, Action& action) {
-  CLI::App* command = line.add_subcommand("study", "Measure methods and choices: time and error");
+  CLI::App* command = line.add_subcommand("study", "Measure methods, choices and stability");
   command->require_subcommand(1);
   addAccuracyStudy(*command, action);
   addOptionStudy(*command, action);
   addEffectStudy(*command, action);
+  addStabilityStudy(*command, action);
 }
 
 }  // namespace app

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/console.h"
+#include "app/gnuplot.h"
 #include "app/interrupt.h"
 #include "app/study_accuracy.h"
 #include "app/study_commands.h"
@@ -145,9 +146,7 @@ ExitCode accuracy(const AccuracyOptions& options) {
     writeStudyPage(chapters, commandLine(options), folder);  // so that it can be looked at
   }
   accuracy.finish();
-  if (!hasGnuplot) {
-    note("dbd: no diagrams: " + gnuplotHint() + ", and run this again\n");
-  }
+  if (!hasGnuplot) note(kNoGnuplot);
   if (!options.common.quiet) say(summary + (folder / "index.html").string() + "\n");
   return allMeasured ? ExitCode::kDone : ExitCode::kCheckFailed;
 }

@@ -8,5 +8,6 @@ namespace app {
 void addAccuracyStudy(CLI::App& study, Action& action);
 void addOptionStudy(CLI::App& study, Action& action);
 void addEffectStudy(CLI::App& study, Action& action);
+void addStabilityStudy(CLI::App& study, Action& action);
 
 }  // namespace app

@@ -11,7 +11,7 @@
 #include "app/progress.h"
 #include "app/study_commands.h"
 #include "app/study_effects.h"
-#include "app/study_plot.h"
+#include "app/gnuplot.h"
 
 namespace app {
 
@@ -103,7 +103,7 @@ ExitCode effects(const EffectsOptions& options) {
     progress.advance();
   }
   progress.finish();
-  if (!plotted) note("dbd: no pictures: " + gnuplotHint() + ", and run this again\n");
+  if (!plotted) note(kNoGnuplot);
   if (options.table) {
     say(tableText(all));
   } else if (!options.common.quiet) {

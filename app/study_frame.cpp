@@ -135,15 +135,15 @@ std::string realTimeLine(const PlotFrame&) {
          "offset -0.8,0 textcolor rgb '#505050' font ',10'\n";
 }
 
-std::string endPlot(const std::string& name, const std::string& plot) {
+std::string endPlot(const std::string& name, const std::string& plot, int width, int height) {
   return fmt::format(
-      "set terminal svg size 960,440 font 'DejaVu Sans,11' background rgb 'white'\n"
+      "set terminal svg size {2},{3} font 'DejaVu Sans,11' background rgb 'white'\n"
       "set output '{0}.svg'\n{1}unset output\n"
-      "set terminal pngcairo size 1920,880 fontscale 2 linewidth 2 pointscale 2 font 'DejaVu "
+      "set terminal pngcairo size {4},{5} fontscale 2 linewidth 2 pointscale 2 font 'DejaVu "
       "Sans,11' "
       "background rgb 'white'\n"
       "set output '{0}.png'\nreplot\nunset output\n",
-      name, plot);
+      name, plot, width, height, 2 * width, 2 * height);
 }
 
 std::string superscript(std::string text) {

@@ -23,8 +23,9 @@ PlotFrame makeFrame(const StudyResults& results, double (*x)(const StudyPoint&),
 
 std::string beginPlot(const StudyResults& results, const PlotFrame& frame, const std::string& x);
 std::string realTimeLine(const PlotFrame& frame);
-// Draws `plot` into NAME.svg and NAME.png.
-std::string endPlot(const std::string& name, const std::string& plot);
+// Draws `plot` into NAME.svg, of that size in pixels, and NAME.png, twice as large.
+std::string endPlot(const std::string& name, const std::string& plot, int width = 960,
+                    int height = 440);
 
 std::string superscript(std::string text);  // "m^2" -> "m²"
 

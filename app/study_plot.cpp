@@ -7,11 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "app/exit_code.h"
-#include "app/interrupt.h"
-#include "app/output_file.h"
+#include "app/gnuplot.h"
 #include "app/study_frame.h"
-#include "render/child.h"
 
 namespace app {
 
@@ -163,27 +160,6 @@ std::string slopeGuides(const PlotFrame& frame) {
 }
 
 }  // namespace
-
-std::string gnuplotVersion() {
-  const render::ChildResult result = render::runChild({"gnuplot", "--version"});
-  if (!result.started || result.exitCode != 0) return "";
-  return result.output.substr(0, result.output.find('\n'));
-}
-
-std::string gnuplotHint() {
-  return "cannot run gnuplot; install it with: sudo apt-get install -y gnuplot-nox";
-}
-
-void runGnuplot(const std::string& script, const fs::path& folder, const std::string& name) {
-  const fs::path file = folder / (name + ".gp");
-  writeFile(file, script);
-  const std::string move = fmt::format("cd '{}'", fs::absolute(folder).string());
-  const render::ChildResult result =
-      render::runChild({"gnuplot", "-e", move, fs::absolute(file).string()});
-  if (!result.started) throw EnvironmentError(gnuplotHint());
-  if (result.exitCode != 0 && !interrupted())
-    throw EnvironmentError(fmt::format("gnuplot {}: {}", file.string(), result.errors));
-}
 
 std::string workPrecisionScript(const StudyResults& results) {
   const PlotFrame frame = makeFrame(results, timeOf, true);

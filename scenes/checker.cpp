@@ -1,8 +1,10 @@
 // Runs a scene's [[expect]] along a simulation, keeping the worst value of each.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
+#include "scenes/culprit.h"
 #include "scenes/sampler.h"
 
 namespace scenes {
@@ -26,7 +28,25 @@ struct Watch {
   const Metric* metric = nullptr;
   std::vector<physics::BodyId> bodies;
   Extremes extremes;
+  std::optional<Checker::Failure> failure;
+
+  bool isBroken(double value) const {
+    const Expectation& e = expectation;
+    return (e.atMost && !(value <= *e.atMost)) || (e.atLeast && !(value >= *e.atLeast));
+  }
+  void include(const Sample& sample, double value, physics::BodyId body) {
+    extremes.include(value, sample.now.time);
+    if (failure || !isBroken(value)) return;
+    const Culprit culprit = findCulprit(sample, *metric, body);
+    failure = Checker::Failure{sample.now.frame, value, culprit.bodies, culprit.constraint};
+  }
 };
+
+// `finite` needs no bound.
+Expectation withBound(Expectation expectation) {
+  if (!expectation.atMost && !expectation.atLeast) expectation.atLeast = 1;
+  return expectation;
+}
 
 bool inSpan(const Expectation& expectation, double time) {
   constexpr double kSlack = 1e-9;  // s; times are frame / fps
@@ -40,14 +60,17 @@ std::string withUnit(double value, const char* unit) {
 
 Checker::Verdict judge(const Watch& watch) {
   Checker::Verdict verdict;
-  verdict.expectation = watch.expectation;
-  Expectation wanted = watch.expectation;
-  if (!wanted.atMost && !wanted.atLeast) wanted.atLeast = 1;  // `finite` needs no bound
+  const Expectation& wanted = watch.expectation;
+  verdict.expectation = wanted;
+  verdict.failure = watch.failure;
   const Extremes& e = watch.extremes;
   const bool tooMuch = wanted.atMost && !(e.most <= *wanted.atMost);
   const bool tooLittle = wanted.atLeast && !(e.least >= *wanted.atLeast);
   const bool upper = tooMuch || (wanted.atMost && !tooLittle);
+  verdict.seen = e.seen;
   verdict.holds = e.seen && !tooMuch && !tooLittle;
+  verdict.atMost = upper;
+  verdict.bound = upper ? wanted.atMost.value_or(0) : *wanted.atLeast;
   verdict.value = upper ? e.most : e.least;
   verdict.atTime = upper ? e.mostTime : e.leastTime;
   const char* unit = watch.metric->unit;
@@ -56,10 +79,9 @@ Checker::Verdict judge(const Watch& watch) {
     verdict.text = fmt::format("{}{}: no frame in its span", wanted.metric, of);
     return verdict;
   }
-  verdict.text =
-      fmt::format("{}{} {}{} {} {}", wanted.metric, of, withUnit(verdict.value, unit),
-                  verdict.holds ? "" : ", expected",
-                  upper ? "<=" : ">=", withUnit(upper ? *wanted.atMost : *wanted.atLeast, unit));
+  verdict.text = fmt::format("{}{} {}{} {} {}", wanted.metric, of, withUnit(verdict.value, unit),
+                             verdict.holds ? "" : ", expected",
+                             upper ? "<=" : ">=", withUnit(verdict.bound, unit));
   return verdict;
 }
 
@@ -81,7 +103,7 @@ struct Checker::Impl {
 
 Checker::Checker(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   for (const Expectation& expectation : scene.expectations) {
-    impl_->watches.push_back({expectation, findMetric(expectation.metric), {}, {}});
+    impl_->watches.push_back({withBound(expectation), findMetric(expectation.metric), {}, {}, {}});
   }
 }
 
@@ -95,11 +117,11 @@ void Checker::observe(const Simulation& simulation) {
     if (!inSpan(watch.expectation, time)) continue;
     const Sample sample = impl_->sampler.sample(simulation, watch.bodies);
     if (watch.metric->scene != nullptr) {
-      watch.extremes.include(watch.metric->scene(sample), time);
+      watch.include(sample, watch.metric->scene(sample), -1);
       continue;
     }
     for (const physics::BodyId body : watch.bodies) {
-      watch.extremes.include(watch.metric->body(sample, body), time);
+      watch.include(sample, watch.metric->body(sample, body), body);
     }
   }
 }
@@ -108,6 +130,11 @@ std::vector<Checker::Verdict> Checker::verdicts() const {
   std::vector<Verdict> verdicts;
   for (const Watch& watch : impl_->watches) verdicts.push_back(judge(watch));
   return verdicts;
+}
+
+bool Checker::hasFailed() const {
+  return std::any_of(impl_->watches.begin(), impl_->watches.end(),
+                     [](const Watch& watch) { return watch.failure.has_value(); });
 }
 
 }  // namespace scenes

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,14 +65,24 @@ class Checker {
   explicit Checker(const Scene& scene);
   ~Checker();
   void observe(const Simulation& simulation);
+  struct Failure {  // the first frame in which an expectation does not hold
+    int frame = 0;
+    double value = 0;
+    std::string bodies, constraint;  // where; empty: nothing stands out
+  };
   struct Verdict {
     Expectation expectation;
     double value = 0;  // the worst over its span
     double atTime = 0;
     bool holds = true;
-    std::string text;  // "joint_error 3.1e-07 m <= 1e-06 m"
+    bool seen = true;    // false: no frame was in its span
+    double bound = 0;    // what the value is held against
+    bool atMost = true;  // from above, else from below
+    std::string text;    // "joint_error 3.1e-07 m <= 1e-06 m"
+    std::optional<Failure> failure;
   };
   std::vector<Verdict> verdicts() const;
+  bool hasFailed() const;  // in a frame so far; no later frame can mend that
 
  private:
   struct Impl;

@@ -35,7 +35,8 @@ StabilityFamily readFamily(const Member& table, const Context& context) {
   StabilityFamily family;
   family.name = table.key;
   TableReader reader(table.value, table.key, context);
-  reader(Field{"title", Unit::kNone, true}, family.title);
+  family.title = table.key;
+  reader(Field{"title"}, family.title);
   reader(Field{"about"}, family.about);
   reader(Field{"methods"}, family.methods);
   for (const Member& member : table.value.members) {

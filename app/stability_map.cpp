@@ -1,0 +1,174 @@
+// Lays the map out line by line, and writes it in gnuplot's words.
+#include "app/stability_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/study_frame.h"
+
+namespace app {
+
+namespace {
+
+using scenes::StabilitySeverity;
+constexpr double kLine = 18;                  // pixels of the SVG
+constexpr int kWidth = 1060;                  // pixels of the SVG
+constexpr double kLeft = 0.2, kRight = 0.61;  // of the width: where bars begin and end
+constexpr int kMostTicks = 7;
+
+// Whole decades, or round steps, between the ends of the range.
+std::vector<double> ticksOf(const StabilitySeverity& severity) {
+  const double low = std::min(severity.from, severity.to),
+               high = std::max(severity.from, severity.to);
+  std::vector<double> ticks;
+  if (severity.scale == StabilitySeverity::Scale::kLog) {
+    const double sign = low < 0 ? -1 : 1;
+    const double a = std::log10(std::min(std::abs(low), std::abs(high)));
+    const double b = std::log10(std::max(std::abs(low), std::abs(high)));
+    const int stride = std::max(1, static_cast<int>(std::ceil((b - a) / kMostTicks)));
+    for (int k = static_cast<int>(std::ceil(a - 1e-9)); k <= b + 1e-9; k += stride) {
+      ticks.push_back(sign * std::pow(10, k));
+    }
+  } else {
+    const double rough = (high - low) / (kMostTicks - 1),
+                 unit = std::pow(10, std::floor(std::log10(rough)));
+    double step = 10 * unit;
+    for (const double times : {1.0, 2.0, 5.0}) {
+      if (times * unit >= rough) {
+        step = times * unit;
+        break;
+      }
+    }
+    if (severity.scale == StabilitySeverity::Scale::kInteger)
+      step = std::max(1.0, std::round(step));
+    for (double t = std::ceil(low / step) * step; t <= high * (1 + 1e-9); t += step)
+      ticks.push_back(t);
+  }
+  const auto isEnd = [&](double tick) { return std::abs(severity.placeOf(tick)) < 0.02; };
+  if (std::none_of(ticks.begin(), ticks.end(), isEnd)) ticks.push_back(severity.from);
+  return ticks;
+}
+
+// 1000000 and more in powers of ten: "10^6", "3.2·10^5".
+std::string levelText(double level) {
+  const double size = std::abs(level);
+  if (level == 0 || (size < 1e5 && size >= 1e-3)) return fmt::format("{:.3g}", level);
+  const int power = static_cast<int>(std::floor(std::log10(size) + 1e-9));
+  const double front = level / std::pow(10, power);
+  if (std::abs(front - 1) < 1e-9) return fmt::format("10^{{{}}}", power);
+  return fmt::format("{:.3g}·10^{{{}}}", front, power);
+}
+
+class Drawing {
+ public:
+  // `y` in lines from the top.
+  void text(double x, double y, const std::string& text, const std::string& how) {
+    body_ += fmt::format("set label \"{}\" at {:.5f},{:.3f} {}\n", text, x, y, how);
+  }
+  void line(double x0, double y0, double x1, double y1, const std::string& how) {
+    body_ += fmt::format("set arrow from {:.5f},{:.3f} to {:.5f},{:.3f} nohead {}\n", x0, y0, x1,
+                         y1, how);
+  }
+  void box(double x0, double y0, double x1, double y1, const std::string& how) {
+    body_ += fmt::format("set object rectangle from {:.5f},{:.3f} to {:.5f},{:.3f} {}\n", x0, y0,
+                         x1, y1, how);
+  }
+  void arrow(double x0, double y0, double x1, double y1, const std::string& how) {
+    body_ += fmt::format(
+        "set arrow from {:.5f},{:.3f} to {:.5f},{:.3f} head filled size screen 0.006,25 {}\n", x0,
+        y0, x1, y1, how);
+  }
+  const std::string& body() const { return body_; }
+
+ private:
+  std::string body_;
+};
+
+void drawBar(const StabilitySeverity& severity, const StabilityBar& bar, double y, Drawing& out) {
+  constexpr double kHalf = 0.32;  // lines
+  const std::string color = fmt::format("rgb '{}'", bar.way.color);
+  const SeverityBorder& border = bar.border;
+  out.text(-0.015, y, plotText(bar.way.title), "right font ',10'");
+  const double end = border.holds ? severity.placeOf(*border.holds) : 0;
+  if (border.holds) {
+    out.box(0, y - kHalf, std::max(end, 0.004), y + kHalf,
+            fmt::format("fs solid 0.85 noborder fc {}", color));
+  }
+  if (border.fails) {
+    const double place = severity.placeOf(*border.fails);
+    out.text(place, y, "×", fmt::format("center font ',14' textcolor rgb '#b3261e'"));
+  } else if (border.holds) {
+    out.arrow(1, y, 1.02, y, fmt::format("lw 1.5 lc {}", color));
+  }
+  out.text(1.035, y, plotText(borderText(bar)), "left font ',9' textcolor rgb '#303030'");
+}
+
+// The title, the bars and the axis of a case; gives the line below.
+double drawCase(const StabilityResult& result, double y, Drawing& out) {
+  const StabilitySeverity& severity = *result.study.severity;
+  out.text(-kLeft / (kRight - kLeft), y, plotText(result.study.title), "left font ',11'");
+  const std::string unit = severity.unit.empty() ? "" : " [" + severity.unit + "]";
+  const double top = y + 0.6, bottom = top + 0.1 + static_cast<double>(result.bars.size());
+  for (const double tick : ticksOf(severity)) {
+    const double x = severity.placeOf(tick);
+    out.line(x, top, x, bottom, "lw 0.6 lc rgb '#d4d4d4' back");
+    out.text(x, bottom + 0.4, levelText(tick), "center font ',9' textcolor rgb '#505050'");
+  }
+  const double stated = severity.placeOf(severity.stated);
+  y = top + 0.55;
+  for (const StabilityBar& bar : result.bars) drawBar(severity, bar, y++, out);
+  out.line(0, bottom, 1, bottom, "lw 0.8 lc rgb '#808080'");
+  out.line(stated, top - 0.05, stated, bottom, "lw 1.4 dt (6,4) lc rgb '#202020' front");
+  out.text(
+      1.035, bottom + 0.4,
+      plotText(fmt::format("{}{}; dashed: stated, {:.3g}", severity.label, unit, severity.stated)),
+      "left font ',9' textcolor rgb '#505050'");
+  return bottom + 1.9;
+}
+
+}  // namespace
+
+std::string failureText(const StabilityRun& run) {
+  if (run.status == StabilityRun::Status::kTooLong) return "given up: too much work";
+  if (run.status == StabilityRun::Status::kThrew) return "refused";
+  if (!run.failure) return statusName(run.status);
+  const StabilityFailure& failure = *run.failure;
+  const std::string what = run.status == StabilityRun::Status::kFails
+                               ? failure.what.substr(0, failure.what.find_first_of(" :"))
+                               : statusName(run.status);
+  const std::string& where = failure.constraint.empty() || failure.constraint == "contact"
+                                 ? failure.bodies
+                                 : failure.constraint;
+  return fmt::format("{}{}{}, frame {}", what, where.empty() ? "" : ", ", where, failure.frame);
+}
+
+std::string borderText(const StabilityBar& bar) {
+  const SeverityBorder& border = bar.border;
+  if (!border.fails) return border.holds ? "holds to the end of the range" : "not tried";
+  std::string text = bar.firstFailure ? failureText(*bar.firstFailure) : "fails";
+  text = fmt::format("{:.3g}: {}", *border.fails, text);
+  if (border.holdsBeyond) text += fmt::format(" (but holds at {:.3g})", *border.holdsBeyond);
+  return text;
+}
+
+std::string mapScript(const std::vector<const StabilityResult*>& cases, const std::string& title,
+                      const std::string& name) {
+  Drawing drawing;
+  double y = 2.2;
+  for (const StabilityResult* result : cases) {
+    if (!result->bars.empty()) y = drawCase(*result, y, drawing);
+  }
+  if (drawing.body().empty()) return "";
+  drawing.text(-kLeft / (kRight - kLeft), 0.7, plotText(title), "left font ',14'");
+  const int height = static_cast<int>(kLine * y);
+  std::string text = fmt::format(
+      "unset border\nunset tics\nunset key\nset lmargin at screen {}\nset rmargin at screen {}\n"
+      "set tmargin at screen 1\nset bmargin at screen 0\nset xrange [0:1]\nset yrange [{:.3f}:0]\n",
+      kLeft, kRight, y);
+  text += drawing.body();
+  return text + endPlot(name, "plot NaN notitle\n", kWidth, height);
+}
+
+}  // namespace app
