@@ -152,6 +152,28 @@ std::string showStudy(const fs::path& folder, const ShownStudy& study) {
   return html + "</div></section>\n";
 }
 
+// The hard cases of DIR/stability: a link, and how some of them end.
+std::string showStability(const fs::path& folder) {
+  constexpr std::size_t kMost = 4;
+  std::error_code error;
+  std::vector<std::string> ends;
+  for (const auto& entry : fs::directory_iterator(folder / "stability" / "ends", error)) {
+    ends.push_back(entry.path().filename().string());
+  }
+  if (ends.empty()) return "";
+  std::sort(ends.begin(), ends.end());
+  ends.resize(std::min(ends.size(), kMost));
+  std::string html =
+      "<section id=\"stability\"><h2><a href=\"stability/index.html\">Hard cases stay "
+      "stable</a></h2>\n<p>Large mass ratios, high stacks, fast impacts: whether each criterion "
+      "holds, and by which margin.</p>\n<div class=\"shots\">\n";
+  for (const std::string& name : ends) {
+    html += fmt::format("<img class=\"poster\" src=\"stability/ends/{}\" alt=\"\">\n",
+                        escapeHtml(name));
+  }
+  return html + "</div></section>\n";
+}
+
 }  // namespace
 
 fs::path writeFigurePage(const fs::path& folder) {
@@ -163,7 +185,7 @@ fs::path writeFigurePage(const fs::path& folder) {
       contents(records);
   for (const FigureRecord& record : records) body += showFigure(record);
   for (const ShownStudy& study : kStudies) body += showStudy(folder, study);
-  body += showScenes(folder);
+  body += showStability(folder) + showScenes(folder);
   const fs::path page = folder / "index.html";
   writeFile(page, htmlPage("Displacement based dynamics: the figures", body));
   return page;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is needed, builds dbd, renders the shown scenes into out/scenes, measures what
-# accuracy costs into out/study and what effects cost into out/study_effects, makes the paper's
-# figures in out/, and ends with the path of out/index.html.
+# accuracy costs into out/study and what effects cost into out/study_effects, runs hard cases into
+# out/stability, makes the paper's figures in out/, and ends with the path of out/index.html.
 # Options go to every `dbd render` and to `dbd figures`: ./app/run.sh --quality draft
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -29,6 +29,8 @@ say "What accuracy costs in time: the quick study"
 run "accuracy study" study accuracy --quick -o "$root/out/study"
 say "What each effect costs: the quick study"
 run "effects study" study effects --quick -o "$root/out/study_effects"
+say "Hard cases: the quick ones"
+run "stability study" study stability --quick -o "$root/out/stability"
 say "Figures"
 run figures figures -o "$root/out" "$@"
 if [ ${#failed[@]} -gt 0 ]; then

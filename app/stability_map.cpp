@@ -13,9 +13,11 @@ namespace app {
 namespace {
 
 using scenes::StabilitySeverity;
-constexpr double kLine = 18;                  // pixels of the SVG
-constexpr int kWidth = 1060;                  // pixels of the SVG
-constexpr double kLeft = 0.2, kRight = 0.61;  // of the width: where bars begin and end
+constexpr double kLine = 18;                   // pixels of the SVG
+constexpr int kWidth = 1080;                   // pixels of the SVG
+constexpr double kLeft = 0.25, kRight = 0.64;  // of the width: where bars begin and end
+constexpr double kEdge = 0.012;                // of the width, left free
+constexpr double kFarLeft = (kEdge - kLeft) / (kRight - kLeft);
 constexpr int kMostTicks = 7;
 
 // Whole decades, or round steps, between the ends of the range.
@@ -51,14 +53,14 @@ std::vector<double> ticksOf(const StabilitySeverity& severity) {
   return ticks;
 }
 
-// 1000000 and more in powers of ten: "10^6", "3.2·10^5".
+// "1000", "3.2e5": no plus sign, no zeros in the power.
 std::string levelText(double level) {
   const double size = std::abs(level);
-  if (level == 0 || (size < 1e5 && size >= 1e-3)) return fmt::format("{:.3g}", level);
+  if (level == 0 || (size < 99999.5 && size >= 1e-3)) {
+    return size >= 1000 ? fmt::format("{:.0f}", level) : fmt::format("{:.3g}", level);
+  }
   const int power = static_cast<int>(std::floor(std::log10(size) + 1e-9));
-  const double front = level / std::pow(10, power);
-  if (std::abs(front - 1) < 1e-9) return fmt::format("10^{{{}}}", power);
-  return fmt::format("{:.3g}·10^{{{}}}", front, power);
+  return fmt::format("{:.3g}e{}", level / std::pow(10, power), power);
 }
 
 class Drawing {
@@ -90,7 +92,8 @@ void drawBar(const StabilitySeverity& severity, const StabilityBar& bar, double 
   constexpr double kHalf = 0.32;  // lines
   const std::string color = fmt::format("rgb '{}'", bar.way.color);
   const SeverityBorder& border = bar.border;
-  out.text(-0.015, y, plotText(bar.way.title), "right font ',10'");
+  const std::string name = plotText(bar.way.title);
+  out.text(-0.02, y, bar.way.method.empty() ? "{/:Bold " + name + "}" : name, "right font ',10'");
   const double end = border.holds ? severity.placeOf(*border.holds) : 0;
   if (border.holds) {
     out.box(0, y - kHalf, std::max(end, 0.004), y + kHalf,
@@ -108,7 +111,7 @@ void drawBar(const StabilitySeverity& severity, const StabilityBar& bar, double 
 // The title, the bars and the axis of a case; gives the line below.
 double drawCase(const StabilityResult& result, double y, Drawing& out) {
   const StabilitySeverity& severity = *result.study.severity;
-  out.text(-kLeft / (kRight - kLeft), y, plotText(result.study.title), "left font ',11'");
+  out.text(kFarLeft, y, plotText(result.study.title), "left font ',11'");
   const std::string unit = severity.unit.empty() ? "" : " [" + severity.unit + "]";
   const double top = y + 0.6, bottom = top + 0.1 + static_cast<double>(result.bars.size());
   for (const double tick : ticksOf(severity)) {
@@ -123,7 +126,7 @@ double drawCase(const StabilityResult& result, double y, Drawing& out) {
   out.line(stated, top - 0.05, stated, bottom, "lw 1.4 dt (6,4) lc rgb '#202020' front");
   out.text(
       1.035, bottom + 0.4,
-      plotText(fmt::format("{}{}; dashed: stated, {:.3g}", severity.label, unit, severity.stated)),
+      plotText(fmt::format("{}{}; stated: {}", severity.label, unit, levelText(severity.stated))),
       "left font ',9' textcolor rgb '#505050'");
   return bottom + 1.9;
 }
@@ -148,20 +151,25 @@ std::string borderText(const StabilityBar& bar) {
   const SeverityBorder& border = bar.border;
   if (!border.fails) return border.holds ? "holds to the end of the range" : "not tried";
   std::string text = bar.firstFailure ? failureText(*bar.firstFailure) : "fails";
-  text = fmt::format("{:.3g}: {}", *border.fails, text);
-  if (border.holdsBeyond) text += fmt::format(" (but holds at {:.3g})", *border.holdsBeyond);
+  text = fmt::format("at {}: {}", levelText(*border.fails), text);
+  if (border.holdsBeyond) text += fmt::format(" (holds at {})", levelText(*border.holdsBeyond));
   return text;
 }
 
 std::string mapScript(const std::vector<const StabilityResult*>& cases, const std::string& title,
                       const std::string& name) {
   Drawing drawing;
-  double y = 2.2;
+  double y = 3.4;
   for (const StabilityResult* result : cases) {
     if (!result->bars.empty()) y = drawCase(*result, y, drawing);
   }
   if (drawing.body().empty()) return "";
-  drawing.text(-kLeft / (kRight - kLeft), 0.7, plotText(title), "left font ',14'");
+  drawing.text(kFarLeft, 0.7, plotText(title), "left font ',14'");
+  drawing.text(
+      kFarLeft, 1.9,
+      "Bars: the criterion holds. ×: the easiest level that failed, and what failed first. "
+      "Dashed: the stated level. {/:Bold Bold}: the family's settings.",
+      "left font ',9' textcolor rgb '#505050'");
   const int height = static_cast<int>(kLine * y);
   std::string text = fmt::format(
       "unset border\nunset tics\nunset key\nset lmargin at screen {}\nset rmargin at screen {}\n"

@@ -14,7 +14,7 @@ namespace app {
 std::string mapScript(const std::vector<const StabilityResult*>& cases, const std::string& title,
                       const std::string& name);
 
-// "holds to 3.2e+05, fails at 3.7e+05: joint_error, ball_socket 19, frame 34"
+// "at 3.7e5: joint_error, ball_socket 19, frame 34"
 std::string borderText(const StabilityBar& bar);
 
 // What fails first and where, in few words: "joint_error, ball_socket 19, frame 34".

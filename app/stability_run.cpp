@@ -42,8 +42,10 @@ class Player {
 
   bool play(const StabilityVisit& visit) {  // false: interrupted
     run_.frameCount = scene_.frameCount();
+    const int frames =
+        limits_.mostFrames > 0 ? std::min(limits_.mostFrames, run_.frameCount) : run_.frameCount;
     bool goesOn = true;
-    for (int frame = 0; goesOn && frame < scene_.frameCount(); ++frame) {
+    for (int frame = 0; goesOn && frame < frames; ++frame) {
       if (interrupted()) return false;
       if (frame > 0 && !advance()) break;
       checker_.observe(simulation_);

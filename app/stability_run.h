@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,6 +69,7 @@ const char* statusName(StabilityRun::Status status);
 struct StabilityLimits {
   bool stopAtFailure = false;  // no later frame can mend it
   double mostWork = 0;         // 0: no limit
+  int mostFrames = 0;          // 0: all
 };
 
 // Shows every frame; `failed`: an expectation has failed by now.

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <sstream>
 
 #include "app/build_info.h"
 #include "app/open_renderer.h"
@@ -18,7 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr int kWidth = 480, kHeight = 320;
 constexpr double kInk = 1.6;
-constexpr int kBoundsEvery = 10;  // frames
+constexpr int kBoundsEvery = 10;      // frames
+constexpr double kCloseMargin = 0.5;  // of a close-up
 
 scenes::ViewOptions viewOptions() {
   scenes::ViewOptions options;
@@ -37,6 +40,23 @@ bool isLast(const scenes::Simulation& simulation) {
 }
 
 constexpr const char* kMoments[] = {"the frame before", "the first bad frame", "the frame after"};
+
+// What the culprits look like, without what is around them; none: nobody is named.
+std::optional<render::Picture> closeUp(const scenes::Simulation& simulation,
+                                       const StabilityFailure& failure,
+                                       scenes::ViewOptions options) {
+  scenes::MotionBounds bounds;
+  std::istringstream names(failure.bodies);
+  for (std::string name; std::getline(names, name, ',');) {
+    name.erase(0, name.find_first_not_of(' '));
+    if (name != "world") bounds.include(simulation, name);
+  }
+  if (!(bounds.low.array() <= bounds.high.array()).all()) return std::nullopt;
+  options.camera = simulation.scene().camera;
+  options.camera->keys.clear();
+  options.camera->margin = kCloseMargin;
+  return scenes::view(simulation, bounds, options, {});
+}
 
 }  // namespace
 
@@ -57,13 +77,19 @@ std::vector<StabilityShot> planFailureShots(const StabilityRun& run) {
   if (!run.failure || run.status == StabilityRun::Status::kThrew) return shots;
   const std::string hash =
       hashText(run.key.study + "\n" + run.key.method + "\n" + run.key.level + "\n" + run.inputs);
-  const bool exists = run.status != StabilityRun::Status::kNotFinite;
-  for (int k = -1; k <= 1; ++k) {
-    const bool isFrame = run.failure->frame + k >= 0 && run.failure->frame + k < run.frameCount;
-    if (!isFrame || (k >= 0 && !exists)) continue;
-    const int frame = run.failure->frame + k;
-    shots.push_back({fmt::format("shots/{}_{}_{:05}.png", run.key.study, hash.substr(0, 6), frame),
-                     fmt::format("{}, {}", kMoments[k + 1], frame)});
+  const std::string name = fmt::format("shots/{}_{}", run.key.study, hash.substr(0, 6));
+  const int bad = run.failure->frame;
+  const bool exists = run.status != StabilityRun::Status::kNotFinite;  // else the last good one
+  for (int frame = std::max(0, bad - 1); frame <= std::min(bad + 1, run.frameCount - 1); ++frame) {
+    if (frame >= bad && !exists) break;
+    shots.push_back({fmt::format("{}_{:05}.png", name, frame),
+                     fmt::format("{}, {}", kMoments[frame - bad + 1], frame), frame, false});
+  }
+  const bool isNamed = !run.failure->bodies.empty() && run.failure->bodies != "world";
+  const int close = exists ? bad : bad - 1;
+  if (isNamed && close >= 0) {
+    shots.push_back({name + "_close.png", fmt::format("{} in frame {}", run.failure->bodies, close),
+                     close, true});
   }
   return shots;
 }
@@ -73,8 +99,9 @@ bool drawFailureShots(const scenes::StabilityCase& study, const std::vector<std:
                       const fs::path& folder) {
   const auto isThere = [&](const StabilityShot& shot) { return fs::exists(folder / shot.file); };
   if (std::all_of(shots.begin(), shots.end(), isThere)) return true;
-  const int first = std::max(0, run.failure->frame - 1);
-  const int last = first + static_cast<int>(shots.size()) - 1;
+  const int first = shots.front().frame;
+  int last = first;
+  for (const StabilityShot& shot : shots) last = std::max(last, shot.frame);
   const auto renderer = openRenderer({kWidth, kHeight, render::Quality::kStandard, ""});
   scenes::MotionBounds bounds;
   scenes::ViewOptions options = viewOptions();
@@ -82,16 +109,16 @@ bool drawFailureShots(const scenes::StabilityCase& study, const std::vector<std:
   const auto visit = [&](const scenes::Simulation& simulation, bool) {
     const int frame = simulation.frame();
     if (frame <= first && (frame % kBoundsEvery == 0 || frame == first)) bounds.include(simulation);
-    if (frame < first || frame > last) return;
-    const auto shot = static_cast<std::size_t>(frame - first);
-    write(*renderer, scenes::view(simulation, bounds, options, {}), folder / shots[shot].file);
+    for (const StabilityShot& shot : shots) {
+      if (shot.frame != frame) continue;
+      const auto picture = shot.isClose ? closeUp(simulation, *run.failure, options)
+                                        : scenes::view(simulation, bounds, options, {});
+      if (picture) write(*renderer, *picture, folder / shot.file);
+    }
   };
-  std::vector<std::string> cut = set;  // no further than the last picture
-  const scenes::Scene scene = scenes::stabilityScene(study, set);
-  if (last + 1 < scene.frameCount()) {
-    cut.push_back(fmt::format("duration={:.17g}", 1.0 * last / scene.fps));
-  }
-  return last == 0 || runStability(study, cut, {}, visit).has_value();
+  StabilityLimits limits;
+  limits.mostFrames = last + 1;
+  return runStability(study, set, limits, visit).has_value();
 }
 
 }  // namespace app

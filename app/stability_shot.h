@@ -13,6 +13,8 @@ namespace app {
 struct StabilityShot {
   std::string file;  // name in the output folder
   std::string caption;
+  int frame = 0;
+  bool isClose = false;  // only the bodies that failed
 };
 
 // Draws the last frame of a run while it is simulated: feed it every frame.
@@ -27,7 +29,8 @@ class EndPicture {
   std::optional<render::Picture> picture_;
 };
 
-// The frames before, at and after the run's failure, as far as they exist.
+// The frames before, at and after the run's failure, as far as they exist, and the bodies where it
+// failed.
 std::vector<StabilityShot> planFailureShots(const StabilityRun& run);
 
 // Simulates again and draws those whose file is not there. False: interrupted.

@@ -1,5 +1,8 @@
 // Runs to and from lines of JSON.
+#include <cstdio>
 #include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include "app/exit_code.h"
 #include "app/output_file.h"

@@ -42,7 +42,7 @@ const fs::path& madeFolder(const fs::path& folder) {
 }
 
 std::string endFile(const StabilityRun& run) {
-  return fmt::format("shots/{}_{}.png", run.key.study, run.inputs.substr(0, 6));
+  return fmt::format("ends/{}_{}.png", run.key.study, run.inputs.substr(0, 6));
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::vector<StabilityWay> waysOf(const StabilityCase& study) {
   std::vector<StabilityWay> ways{{"", study.family.name + "'s settings", "#000000", {}}};
   for (const scenes::StudyMethod& method : scenes::studyMethods()) {
     if (!method.peer.empty() || !isOwn(study.family, method.set)) continue;
-    ways[0].title = method.title + " (family)";
+    ways[0].title = method.title;
     ways[0].color = method.color;
   }
   for (const scenes::StudyMethod& method : study.methods) {
@@ -138,7 +138,7 @@ bool StabilityStudy::judgeCase(StabilityResult& result) {
   const std::string file = endFile(*run);
   end.write(folder_ / file);
   if (fs::exists(folder_ / file)) {
-    result.shots.push_back({file, fmt::format("after {} frames", run->frames)});
+    result.shots.push_back({file, fmt::format("after {} frames", run->frames), 0, false});
   }
   return true;
 }

@@ -57,7 +57,7 @@ std::string severityText(const StabilityResult& result) {
   for (const StabilityBar& bar : result.bars) {
     const std::string holds =
         bar.border.holds ? fmt::format("holds to {:.3g}", *bar.border.holds) : "holds nowhere";
-    const std::string fails = bar.border.fails ? ", fails at " + borderText(bar) : "";
+    const std::string fails = bar.border.fails ? ", fails " + borderText(bar) : "";
     text += fmt::format("      {:<34} {}{}\n", bar.way.title, holds, fails);
   }
   return text;

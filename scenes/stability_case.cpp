@@ -128,6 +128,43 @@ void findStated(const Value& tree, const StabilityTables& tables, const Context&
                    severity.keys.back(), severity.stated));
 }
 
+// "arch.falls" and "my/arch.toml.falls": the file and the variant.
+std::pair<std::string, std::string> splitVariant(const std::string& word) {
+  const std::size_t dot = word.rfind('.'), slash = word.rfind('/');
+  const bool hasDot = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  if (!hasDot || word.substr(dot) == ".toml") return {word, ""};
+  return {word.substr(0, dot), word.substr(dot + 1)};
+}
+
+// The file as it is. The tree gets its family's settings.
+StabilityCase readBase(Value& tree, const StabilityTables& tables, const Context& context,
+                       const std::string& text) {
+  StabilityCase base;
+  base.path = context.path;
+  base.text = text;
+  base.name = fs::path(base.path).stem().string();
+  base.family = findFamily(stabilityFamilies(), tables, context);
+  base.about = tables.about;
+  base.quick = tables.quick;
+  base.methods = chooseMethods(tables, base.family, context);
+  base.severity = tables.severity;
+  applyStability(tree, base.path, {});
+  if (base.severity) findStated(tree, tables, context, *base.severity);
+  const Value* title = tree.find("title");
+  base.title = title != nullptr && title->isString() ? title->text : base.name;
+  return base;
+}
+
+StabilityCase variantOf(const StabilityCase& base, const StabilityVariant& variant) {
+  StabilityCase result = base;
+  result.variant = variant.name;
+  result.name += "." + variant.name;
+  result.title += ": " + variant.name;
+  if (!variant.about.empty()) result.about = variant.about;
+  result.severity.reset();
+  return result;
+}
+
 double roundToDigits(double value, int digits) {
   if (value == 0 || !std::isfinite(value)) return value;
   return std::stod(fmt::format("{:.{}e}", value, digits - 1));
@@ -170,8 +207,7 @@ std::vector<std::string> applyStability(Value& tree, const std::string& path,
   if (tree.find("stability") == nullptr) return left;
   const Context context{path, nullptr};
   const StabilityTables tables = readStabilityTables(tree, context);
-  const std::vector<StabilityFamily> families = stabilityFamilies();
-  applyFamily(tree, findFamily(families, tables, context), tables, context);
+  applyFamily(tree, findFamily(stabilityFamilies(), tables, context), tables, context);
   if (const std::string variant = takeVariant(left); !variant.empty()) {
     applyVariant(tree, tables, variant);
   }
@@ -180,43 +216,23 @@ std::vector<std::string> applyStability(Value& tree, const std::string& path,
 }
 
 std::vector<StabilityCase> readStabilityCases(const std::string& word) {
-  std::string file = word, variant;
-  const std::size_t dot = word.rfind('.');
-  const std::size_t slash = word.rfind('/');
-  const bool hasDot = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  if (hasDot && word.substr(dot) != ".toml")
-    file = word.substr(0, dot), variant = word.substr(dot + 1);
-  StabilityCase base;
-  base.path = studyPath(file, "stability");
-  base.text = readStudyText(base.path);
-  base.name = fs::path(base.path).stem().string();
-  const Context context{base.path, nullptr};
-  Value tree = parseToml(base.text, base.path);
+  const auto [file, variant] = splitVariant(word);
+  const std::string path = studyPath(file, "stability");
+  const std::string text = readStudyText(path);
+  Value tree = parseToml(text, path);
+  const Context context{path, nullptr};
   if (tree.find("stability") == nullptr) {
-    throw InputError(fmt::format("{}:1:1: expected a table [stability]", base.path));
+    throw InputError(fmt::format("{}:1:1: expected a table [stability]", path));
   }
   const StabilityTables tables = readStabilityTables(tree, context);
-  const std::vector<StabilityFamily> families = stabilityFamilies();
-  base.family = findFamily(families, tables, context);
-  base.about = tables.about;
-  base.quick = tables.quick;
-  base.methods = chooseMethods(tables, base.family, context);
-  base.severity = tables.severity;
-  applyStability(tree, base.path, {});
-  if (base.severity) findStated(tree, tables, context, *base.severity);
-  base.title = stabilityScene(base, {}).title;
+  const StabilityCase base = readBase(tree, tables, context, text);
   std::vector<StabilityCase> cases;
   if (variant.empty()) cases.push_back(base);
   for (const StabilityVariant& other : tables.variants) {
-    if (!variant.empty() && variant != other.name) continue;
-    StabilityCase& copy = cases.emplace_back(base);
-    copy.variant = other.name;
-    copy.name += "." + other.name;
-    copy.title += ": " + other.name;
-    if (!other.about.empty()) copy.about = other.about;
-    copy.severity.reset();
+    if (variant.empty() || variant == other.name) cases.push_back(variantOf(base, other));
   }
-  if (cases.empty()) throw InputError(fmt::format("{}: no variant '{}'", base.path, variant));
+  if (cases.empty()) throw InputError(fmt::format("{}: no variant '{}'", path, variant));
+  for (const StabilityCase& study : cases) stabilityScene(study, {});  // a mistake is told now
   return cases;
 }
 

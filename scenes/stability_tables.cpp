@@ -144,8 +144,8 @@ StabilityTables readStabilityTables(const Value& tree, const Context& context) {
   return tables;
 }
 
-const StabilityFamily& findFamily(const std::vector<StabilityFamily>& families,
-                                  const StabilityTables& tables, const Context& context) {
+StabilityFamily findFamily(const std::vector<StabilityFamily>& families,
+                           const StabilityTables& tables, const Context& context) {
   std::vector<std::string> words;
   for (const StabilityFamily& family : families) {
     if (family.name == tables.family) return family;

@@ -18,8 +18,8 @@ struct StabilityTables {
 };
 StabilityTables readStabilityTables(const Value& tree, const Context& context);
 
-const StabilityFamily& findFamily(const std::vector<StabilityFamily>& families,
-                                  const StabilityTables& tables, const Context& context);
+StabilityFamily findFamily(const std::vector<StabilityFamily>& families,
+                           const StabilityTables& tables, const Context& context);
 
 // The family's settings where the case says nothing. Throws where it says what is the family's.
 void applyFamily(Value& tree, const StabilityFamily& family, const StabilityTables& tables,

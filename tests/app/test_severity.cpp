@@ -1,0 +1,95 @@
+// Bisection finds borders that are known, with few trials, and notices where they are none.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/severity_search.h"
+
+namespace app {
+namespace {
+
+using scenes::StabilitySeverity;
+using Scale = StabilitySeverity::Scale;
+
+StabilitySeverity severityOf(double from, double stated, double to, Scale scale = Scale::kLog) {
+  StabilitySeverity severity;
+  severity.from = from;
+  severity.to = to;
+  severity.stated = stated;
+  severity.scale = scale;
+  return severity;
+}
+
+TEST(SeveritySearch, FindsAKnownBorderWithinAHundredthOfTheRange) {
+  for (const double border : {1.5e3, 4.2e4, 0.9e6}) {
+    const SeverityBorder found = searchSeverity(
+        severityOf(1, 1000, 1e6), [&](double level) { return std::optional(level < border); });
+    ASSERT_TRUE(found.holds && found.fails);
+    EXPECT_LT(*found.holds, border);
+    EXPECT_GE(*found.fails, border);
+    EXPECT_LT(std::log10(*found.fails / *found.holds), 0.06);  // 6 decades * 0.01
+    EXPECT_FALSE(found.holdsBeyond);
+    EXPECT_LE(found.trials.size(), static_cast<std::size_t>(kMostTrials));
+  }
+}
+
+TEST(SeveritySearch, FindsAWholeNumberExactly) {
+  const SeverityBorder found =
+      searchSeverity(severityOf(2, 10, 40, Scale::kInteger),
+                     [](double level) { return std::optional(level <= 23); });
+  EXPECT_EQ(found.holds, 23);
+  EXPECT_EQ(found.fails, 24);
+}
+
+TEST(SeveritySearch, GoesTowardsSmallerLevelsWhereLessIsHarder) {
+  const SeverityBorder found =
+      searchSeverity(severityOf(64, 8, 1, Scale::kInteger),
+                     [](double level) { return std::optional(level >= 3); });
+  EXPECT_EQ(found.holds, 3);
+  EXPECT_EQ(found.fails, 2);
+}
+
+TEST(SeveritySearch, LooksBelowAStatedLevelThatFails) {
+  const SeverityBorder found = searchSeverity(
+      severityOf(1, 1000, 1e6), [](double level) { return std::optional(level < 30); });
+  ASSERT_TRUE(found.holds && found.fails);
+  EXPECT_GT(*found.holds, 25);
+  EXPECT_LE(*found.fails, 35);
+  for (const SeverityTrial& trial : found.trials) EXPECT_LE(trial.level, 1000);
+}
+
+TEST(SeveritySearch, SaysThatNothingFailsOrNothingHolds) {
+  const auto always = [](bool holds) {
+    return searchSeverity(severityOf(1, 1000, 1e6), [=](double) { return std::optional(holds); });
+  };
+  EXPECT_EQ(always(true).holds, 1e6);
+  EXPECT_FALSE(always(true).fails);
+  EXPECT_EQ(always(false).fails, 1);
+  EXPECT_FALSE(always(false).holds);
+}
+
+// Fails from 10 to 300 as well as from 9e4 on: the border is where it fails first.
+TEST(SeveritySearch, ReportsALevelThatFailsBelowTheBorder) {
+  const SeverityBorder found = searchSeverity(severityOf(1, 3, 1e6), [](double level) {
+    return std::optional(level < 10 || (level > 300 && level < 9e4));
+  });
+  ASSERT_TRUE(found.fails && found.holds && found.holdsBeyond);
+  EXPECT_LT(*found.fails, 300);
+  EXPECT_LT(*found.holds, 10);
+  EXPECT_GT(*found.holdsBeyond, 300);
+  EXPECT_LE(found.trials.size(), static_cast<std::size_t>(kMostTrials));
+}
+
+TEST(SeveritySearch, EndsWhereItIsInterrupted) {
+  int trials = 0;
+  const SeverityBorder found =
+      searchSeverity(severityOf(1, 3, 1e6), [&](double) -> std::optional<bool> {
+        if (++trials == 4) return std::nullopt;
+        return true;
+      });
+  EXPECT_TRUE(found.interrupted);
+  EXPECT_EQ(trials, 4);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,84 @@
+// Where and when an expectation fails first.
+#include <gtest/gtest.h>
+
+#include "scenes/simulation.h"
+#include "tests/scenes/scene_text.h"
+
+namespace scenes {
+namespace {
+
+const std::string kBall = "shape = { sphere = { radius = 0.5 } }\nmass = 1\n";
+
+Checker::Verdict verdictOf(const std::string& text) {
+  const Scene scene = sceneOf(text);
+  Simulation simulation(scene);
+  Checker checker(scene);
+  checker.observe(simulation);
+  while (simulation.frame() + 1 < scene.frameCount()) {
+    simulation.advance();
+    checker.observe(simulation);
+  }
+  EXPECT_EQ(checker.hasFailed(), checker.verdicts().at(0).failure.has_value());
+  return checker.verdicts().at(0);
+}
+
+// x = t.
+std::string flight(const std::string& bound) {
+  return "duration = 1\n[simulation]\nfps = 10\n[[body]]\nname = \"p\"\nvelocity = [1, 0, 0]\n" +
+         kBall + "[[expect]]\nmetric = \"x\"\nbody = \"p\"\n" + bound;
+}
+
+TEST(Culprit, OfABodysMetricIsTheBodyInTheFirstFrameThatFails) {
+  const auto verdict = verdictOf(flight("at_most = 0.55\n"));
+  ASSERT_TRUE(verdict.failure);
+  EXPECT_EQ(verdict.failure->frame, 6);
+  EXPECT_NEAR(verdict.failure->value, 0.6, 1e-9);
+  EXPECT_EQ(verdict.failure->bodies, "p");
+}
+
+TEST(Culprit, IsNobodyWhereTheExpectationHolds) {
+  EXPECT_FALSE(verdictOf(flight("at_most = 1.5\n")).failure);
+  EXPECT_FALSE(verdictOf(flight("from = 0.45\nat_least = 0.45\n")).failure);
+}
+
+TEST(Culprit, IsLookedForInTheSpanOnly) {
+  const auto verdict = verdictOf(flight("from = 0.75\nat_most = 0.25\n"));
+  ASSERT_TRUE(verdict.failure);
+  EXPECT_EQ(verdict.failure->frame, 8);
+}
+
+TEST(Culprit, OfAJointErrorIsTheWidestJoint) {
+  const auto verdict = verdictOf(
+      "duration = 0.1\n[simulation]\nfps = 10\n[[body]]\nname = \"a\"\nposition = [0, 0, 0]\n" +
+      kBall + "[[body]]\nname = \"b\"\nposition = [3, 0, 0]\n" + kBall +
+      "[[distance]]\nbodies = [\"world\", \"a\"]\nanchors = [[0, 1, 0], [0, 0, 0]]\nlength = 1\n"
+      "[[distance]]\nbodies = [\"a\", \"b\"]\nanchors = [[0, 0, 0], [0, 0, 0]]\nlength = 1\n"
+      "[[expect]]\nmetric = \"joint_error\"\nat_most = 0.1\n");
+  ASSERT_TRUE(verdict.failure);
+  EXPECT_EQ(verdict.failure->frame, 0);
+  EXPECT_EQ(verdict.failure->constraint, "distance 1");
+  EXPECT_EQ(verdict.failure->bodies, "a, b");
+}
+
+TEST(Culprit, OfAnOverlapIsTheDeepestContact) {
+  const auto verdict =
+      verdictOf("duration = 0.1\n[contact]\nfriction = 0.5\n[[body]]\nname = \"a\"\n" + kBall +
+                "[[body]]\nname = \"b\"\nposition = [0.9, 0, 0]\n" + kBall +
+                "[[body]]\nname = \"c\"\nposition = [1.5, 0, 0]\n" + kBall +
+                "[[expect]]\nmetric = \"overlap\"\nat_most = 0.01\n");
+  ASSERT_TRUE(verdict.failure);
+  EXPECT_EQ(verdict.failure->constraint, "contact");
+  EXPECT_EQ(verdict.failure->bodies, "b, c");
+}
+
+TEST(Culprit, OfASpeedIsTheFastestBody) {
+  const auto verdict =
+      verdictOf("duration = 0.1\n[[body]]\nname = \"a\"\nvelocity = [1, 0, 0]\n" + kBall +
+                "[[body]]\nname = \"b\"\nposition = [9, 0, 0]\nvelocity = [0, 5, 0]\n" + kBall +
+                "[[expect]]\nmetric = \"max_speed\"\nat_most = 2\n");
+  ASSERT_TRUE(verdict.failure);
+  EXPECT_EQ(verdict.failure->bodies, "b");
+}
+
+}  // namespace
+}  // namespace scenes

@@ -1,0 +1,170 @@
+// Cases of the stability study: the family decides how they are solved, and what is wrong in them
+// is told at its place.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "scenes/simulation.h"
+#include "scenes/stability_case.h"
+
+namespace scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kHead = "duration = 1\n[stability]\nfamily = \"chains\"\nabout = \"a\"\n";
+const std::string kBody =
+    "[[body]]\nname = \"p\"\nshape = { sphere = { radius = 1 } }\nmass = 3\n"
+    "velocity = [2, 0, 0]\n";
+const std::string kExpect = "[[expect]]\nmetric = \"x\"\nbody = \"p\"\nat_most = 5\n";
+const std::string kSeverity =
+    "[severity]\nset = \"body.p.mass\"\nfrom = 1\nto = 1000\nlabel = \"m\"\n";
+const std::string kVariant =
+    "[[variant]]\nname = \"fast\"\nset = [\"body.p.velocity=[9,0,0]\"]\n"
+    "[[variant.expect]]\nmetric = \"x\"\nbody = \"p\"\nat_least = -1\n";
+
+Scene sceneOf(const std::string& text, const std::vector<std::string>& set = {}) {
+  return parseScene(text, "case.toml", set);
+}
+
+std::string errorOf(const std::string& text, const std::vector<std::string>& set = {}) {
+  try {
+    sceneOf(text, set);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// The cases of a file with this text.
+std::vector<StabilityCase> casesOf(const std::string& text, const std::string& variant = "") {
+  const fs::path file =
+      fs::temp_directory_path() /
+      ("dbd_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
+       ".toml");
+  std::ofstream(file) << text;
+  struct Remove {
+    fs::path file;
+    ~Remove() { fs::remove(file); }
+  } remove{file};
+  return readStabilityCases(file.string() + variant);
+}
+
+StabilityFamily chains() {
+  for (const StabilityFamily& family : stabilityFamilies()) {
+    if (family.name == "chains") return family;
+  }
+  ADD_FAILURE() << "no family chains";
+  return {};
+}
+
+TEST(StabilityCase, HasTheSettingsOfItsFamily) {
+  const StabilityFamily family = chains();
+  const Value* substeps = findValue(family.settings, "simulation.substeps");
+  ASSERT_NE(substeps, nullptr);
+  const Scene scene = sceneOf(kHead + kBody);
+  EXPECT_EQ(scene.settings.substeps, substeps->integer);
+  EXPECT_EQ(scene.settings.method, physics::Method::kDirect);
+  EXPECT_EQ(scene.settings.stepping, physics::Stepping::kBdf2);
+}
+
+TEST(StabilityCase, IsOverriddenFromTheCommandLineAllTheSame) {
+  const Scene scene = sceneOf(kHead + kBody, {"simulation.substeps=37", "body.p.mass=5"});
+  EXPECT_EQ(scene.settings.substeps, 37);
+  EXPECT_EQ(Simulation(scene).world().bodies().mass[1], 5);
+}
+
+TEST(StabilityCase, MayNotSayHowItIsSolved) {
+  EXPECT_EQ(errorOf(kHead + "[simulation]\nfps = 30\niterations = 9\n" + kBody).substr(0, 61),
+            "case.toml:7:1: simulation.iterations: expected none: how a ca");
+  EXPECT_EQ(errorOf(kHead + "[simulation]\nfps = 30\nseed = 4\n" + kBody), "no error");
+  EXPECT_NE(
+      errorOf(kHead + kBody + "[[variant]]\nname = \"v\"\nset = [\"simulation.substeps=9\"]\n")
+          .find("variant 'v': simulation.substeps: expected none"),
+      std::string::npos);
+}
+
+TEST(StabilityCase, MaySayTheSettingThatItIsAbout) {
+  const Scene scene = sceneOf(kHead + "about_settings = [\"iterations\"]\n[simulation]\n" +
+                              "iterations = 1\n" + kBody);
+  EXPECT_EQ(scene.settings.iterations, 1);
+  const std::string severity =
+      "[severity]\nset = \"simulation.substeps\"\nfrom = 64\nto = 1\nlabel = \"n\"\n";
+  EXPECT_EQ(sceneOf(kHead + severity + "[simulation]\nsubsteps = 7\n" + kBody).settings.substeps,
+            7);
+}
+
+TEST(StabilityCase, TellsAMistakeAtItsPlace) {
+  EXPECT_EQ(errorOf("[stability]\nfamily = \"chain\"\nabout = \"\"\n" + kBody),
+            "case.toml:2:10: stability.family: no family 'chain' in stability_families.toml; did "
+            "you mean 'chains'?");
+  EXPECT_EQ(errorOf(kHead + "famly = 1\n" + kBody),
+            "case.toml:5:1: stability: unknown key 'famly'; did you mean 'family'?");
+  EXPECT_EQ(errorOf(kSeverity + kBody), "case.toml:1:2: unknown table 'severity'");
+  EXPECT_EQ(errorOf(kHead + kBody + kSeverity + "scale = \"lg\"\n").substr(0, 20),
+            "case.toml:15:9: seve");
+  EXPECT_EQ(errorOf(kHead + kBody, {"simulation.substeps=0"}),
+            "--set simulation.substeps=0: simulation.substeps: expected an integer in [1, 1000000]"
+            ", got 0");
+}
+
+TEST(StabilityCase, TellsAMistakeInTheSeverityAtItsPlace) {
+  const auto error = [](const std::string& text) -> std::string {
+    try {
+      casesOf(kHead + kBody + text);
+    } catch (const InputError& problem) {
+      const std::string what = problem.what();
+      return what.substr(what.find(".toml"));
+    }
+    return "no error";
+  };
+  const std::string tail = "from = 1\nto = 1000\nlabel = \"m\"\n";
+  EXPECT_EQ(error("[severity]\nset = \"body.q.mass\"\n" + tail),
+            ".toml:11:7: severity.set: expected a number at 'body.q.mass' in this file or its "
+            "family");
+  EXPECT_EQ(error("[severity]\nset = \"body.p.mass\"\nfrom = 10\nto = 100\nlabel = \"m\"\n"),
+            ".toml:11:7: severity.set: expected the stated level between 'from' and 'to', got "
+            "body.p.mass = 3");
+  EXPECT_EQ(error("[severity]\nset = \"body.p.mass\"\nfrom = -1\nto = 100\nlabel = \"m\"\n"),
+            ".toml:12:8: severity.from: expected 'from' and 'to' of the same sign for the scale "
+            "'log'");
+}
+
+TEST(StabilityCase, StatesTheLevelThatTheFileSays) {
+  const std::vector<StabilityCase> cases = casesOf(kHead + kBody + kSeverity);
+  ASSERT_EQ(cases.size(), 1u);
+  const StabilitySeverity& severity = cases[0].severity.value();
+  EXPECT_EQ(severity.stated, 3);
+  EXPECT_DOUBLE_EQ(severity.placeOf(1), 0);
+  EXPECT_DOUBLE_EQ(severity.placeOf(10), 1.0 / 3);
+  EXPECT_EQ(severity.levelAt(2.0 / 3), 100);
+  EXPECT_EQ(severity.overrides(100), (std::vector<std::string>{"body.p.mass=100"}));
+}
+
+TEST(StabilityCase, OfAVariantHasItsOverridesAndItsOwnExpectations) {
+  const std::vector<StabilityCase> cases = casesOf(kHead + kBody + kExpect + kVariant);
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[1].name, cases[0].name + ".fast");
+  const Scene scene = sceneOf(kHead + kBody + kExpect + kVariant, {"stability.variant=fast"});
+  ASSERT_EQ(scene.expectations.size(), 1u);
+  EXPECT_EQ(scene.expectations[0].atLeast, -1);
+  EXPECT_EQ(Simulation(scene).world().bodies().velocity[1].v.x(), 9);
+  EXPECT_EQ(errorOf(kHead + kBody + kVariant, {"stability.variant=fats"}),
+            "--set stability.variant=fats: no such [[variant]]; did you mean 'fast'?");
+  EXPECT_EQ(casesOf(kHead + kBody + kExpect + kVariant, ".fast").size(), 1u);
+}
+
+TEST(StabilityCase, EveryFileOfTheCatalogueIsRead) {
+  for (const std::string& file : stabilityFiles()) {
+    EXPECT_NO_THROW({
+      for (const StabilityCase& study : readStabilityCases(file)) {
+        EXPECT_FALSE(study.about.empty()) << file;
+      }
+    }) << file;
+  }
+  EXPECT_FALSE(stabilityFiles().empty());
+}
+
+}  // namespace
+}  // namespace scenes
