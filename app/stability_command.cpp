@@ -42,7 +42,7 @@ std::vector<StabilityResult> readCases(const StabilityOptions& options) {
     try {
       for (scenes::StabilityCase& study : scenes::readStabilityCases(word)) {
         if (options.quick && all && !study.quick) continue;
-        results.push_back({std::move(study), "", {}, {}, {}});
+        results.push_back({std::move(study), "", {}, {}, {}, {}});
       }
     } catch (const scenes::InputError& error) {
       if (!all) throw;
@@ -120,13 +120,18 @@ ExitCode stability(const StabilityOptions& options) {
     if (!options.common.quiet) say(verdictText(result));
     flushOutput();
   };
-  const bool done = study.judge(tell) && (!searches || study.search()) && study.draw();
+  const auto write = [&] {
+    writeTables(study, options, folder);
+    return true;
+  };
+  const bool done = study.judge(tell) && study.draw() && write() &&
+                    (!searches || (study.search() && study.draw()));
   if (!done) {
     note("dbd: interrupted; the same command runs what is missing\n");
     return ExitCode::kInterrupted;
   }
   if (hasGnuplot) drawMaps(study.results(), folder);
-  writeTables(study, options, folder);
+  write();
   if (searches && !hasGnuplot) note(kNoGnuplot);
   if (!options.common.quiet) say(closing(study) + (folder / "index.html").string() + "\n");
   const auto& results = study.results();

@@ -138,7 +138,8 @@ std::string caseSection(const StabilityResult& result, const fs::path& folder) {
   if (!result.problem.empty()) {
     return html + "<p class=\"bad\">" + escapeHtml(result.problem) + "</p></section>\n";
   }
-  return html + expectationTable(result.stated) + failure(result) + pictures(result.shots, folder) +
+  return html + expectationTable(result.stated) + failure(result) +
+         pictures(result.failureShots, folder) + pictures(result.shots, folder) +
          severity(result, folder) + "</section>\n";
 }
 

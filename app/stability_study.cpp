@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "app/build_info.h"
 #include "app/output_file.h"
@@ -143,27 +144,41 @@ bool StabilityStudy::judgeCase(StabilityResult& result) {
   return true;
 }
 
-bool StabilityStudy::judge(const std::function<void(const StabilityResult&)>& done) {
-  std::vector<double> work;
-  double total = 0;
-  for (const StabilityResult& result : results_) {
-    const StabilityKey key{result.study.name, "", ""};
-    const bool isKnown = store_.find(key, inputsOf(result, {})) != nullptr;
-    work.push_back(isKnown ? 0 : secondsBefore(key));
-    total += work.back();
-  }
-  const int count = static_cast<int>(results_.size());
-  Progress progress(progress_, "stability", "running", count, total);
+// So that no thread is left with the longest at the end.
+bool StabilityStudy::runLongestFirst(const std::string& stage, const std::vector<double>& work,
+                                     const std::function<bool(std::size_t)>& task) {
+  std::vector<std::size_t> order(work.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return work[a] > work[b]; });
+  const int count = static_cast<int>(work.size());
+  Progress progress(progress_, "stability", stage, count,
+                    std::accumulate(work.begin(), work.end(), 0.0));
   const bool all = runTasks(count, threads_, [&](int i) {
-    StabilityResult& result = results_[static_cast<std::size_t>(i)];
-    if (!judgeCase(result)) return false;
-    progress.advance(1, work[static_cast<std::size_t>(i)]);
-    const std::lock_guard lock(mutex_);
-    done(result);
+    const std::size_t chosen = order[static_cast<std::size_t>(i)];
+    if (!task(chosen)) return false;
+    progress.advance(1, work[chosen]);
     return true;
   });
   if (all) progress.finish();
   return all;
+}
+
+bool StabilityStudy::judge(const std::function<void(const StabilityResult&)>& done) {
+  std::vector<StabilityResult*> tasks;
+  std::vector<double> work;
+  for (StabilityResult& result : results_) {
+    const StabilityKey key{result.study.name, "", ""};
+    const bool isKnown = store_.find(key, inputsOf(result, {})) != nullptr;
+    tasks.push_back(&result);
+    work.push_back(isKnown ? 0 : secondsBefore(key));
+  }
+  return runLongestFirst("running", work, [&](std::size_t i) {
+    if (!judgeCase(*tasks[i])) return false;
+    const std::lock_guard lock(mutex_);
+    done(*tasks[i]);
+    return true;
+  });
 }
 
 bool StabilityStudy::searchBar(const StabilityResult& result, StabilityBar& bar) {
@@ -197,26 +212,19 @@ bool StabilityStudy::search() {
     std::size_t bar;
   };
   std::vector<Task> tasks;
-  double total = 0;
+  std::vector<double> work;
   for (StabilityResult& result : results_) {
     if (!result.problem.empty() || !result.study.severity) continue;
     result.bars.clear();
     for (const StabilityWay& way : waysOf(result.study)) {
       tasks.push_back({&result, result.bars.size()});
+      work.push_back(result.stated.seconds);
       result.bars.push_back({way, {}, std::nullopt, {}});
-      total += result.stated.seconds;
     }
   }
-  const int count = static_cast<int>(tasks.size());
-  Progress progress(progress_, "stability", "searching borders", count, total);
-  const bool all = runTasks(count, threads_, [&](int i) {
-    const Task& task = tasks[static_cast<std::size_t>(i)];
-    if (!searchBar(*task.result, task.result->bars[task.bar])) return false;
-    progress.advance(1, task.result->stated.seconds);
-    return true;
+  return runLongestFirst("searching borders", work, [&](std::size_t i) {
+    return searchBar(*tasks[i].result, tasks[i].result->bars[tasks[i].bar]);
   });
-  if (all) progress.finish();
-  return all;
 }
 
 bool StabilityStudy::draw() {
@@ -224,9 +232,10 @@ bool StabilityStudy::draw() {
     StabilityResult& result = results_[static_cast<std::size_t>(i)];
     if (!result.problem.empty()) return true;
     if (result.stated.isFailure()) {
-      const std::vector<StabilityShot> shots = planFailureShots(result.stated);
-      if (!drawFailureShots(result.study, {}, result.stated, shots, folder_)) return false;
-      result.shots.insert(result.shots.end(), shots.begin(), shots.end());
+      result.failureShots = planFailureShots(result.stated);
+      if (!drawFailureShots(result.study, {}, result.stated, result.failureShots, folder_)) {
+        return false;
+      }
     }
     for (const StabilityBar& bar : result.bars) {
       if (!bar.firstFailure || bar.shots.empty()) continue;

@@ -35,7 +35,8 @@ struct StabilityResult {
   scenes::StabilityCase study;
   std::string problem;  // why the case could not be read
   StabilityRun stated;
-  std::vector<StabilityShot> shots;
+  std::vector<StabilityShot> shots;         // its end
+  std::vector<StabilityShot> failureShots;  // where it fails
   std::vector<StabilityBar> bars;
 
   bool holds() const { return problem.empty() && stated.holds(); }
@@ -63,6 +64,8 @@ class StabilityStudy {
   std::optional<StabilityRun> runOf(const StabilityResult& result, const StabilityKey& key,
                                     const std::vector<std::string>& set,
                                     const StabilityLimits& limits, const StabilityVisit& visit);
+  bool runLongestFirst(const std::string& stage, const std::vector<double>& work,
+                       const std::function<bool(std::size_t)>& task);
   bool judgeCase(StabilityResult& result);
   bool searchBar(const StabilityResult& result, StabilityBar& bar);
   std::string inputsOf(const StabilityResult& result, const std::vector<std::string>& set) const;
