@@ -19,48 +19,50 @@ constexpr double kLeft = 0.25, kRight = 0.64;  // of the width: where bars begin
 constexpr double kEdge = 0.012;                // of the width, left free
 constexpr double kFarLeft = (kEdge - kLeft) / (kRight - kLeft);
 constexpr int kMostTicks = 7;
+constexpr double kTickSpace = 0.07;  // of the axis, between the numbers
 
-// Whole decades, or round steps, between the ends of the range.
-std::vector<double> ticksOf(const StabilitySeverity& severity) {
-  const double low = std::min(severity.from, severity.to),
-               high = std::max(severity.from, severity.to);
+std::vector<double> decades(double low, double high) {
+  const double sign = low < 0 ? -1 : 1;
+  const double a = std::log10(std::min(std::abs(low), std::abs(high)));
+  const double b = std::log10(std::max(std::abs(low), std::abs(high)));
+  const int stride = std::max(1, static_cast<int>(std::ceil((b - a) / kMostTicks)));
   std::vector<double> ticks;
-  if (severity.scale == StabilitySeverity::Scale::kLog) {
-    const double sign = low < 0 ? -1 : 1;
-    const double a = std::log10(std::min(std::abs(low), std::abs(high)));
-    const double b = std::log10(std::max(std::abs(low), std::abs(high)));
-    const int stride = std::max(1, static_cast<int>(std::ceil((b - a) / kMostTicks)));
-    for (int k = static_cast<int>(std::ceil(a - 1e-9)); k <= b + 1e-9; k += stride) {
-      ticks.push_back(sign * std::pow(10, k));
-    }
-  } else {
-    const double rough = (high - low) / (kMostTicks - 1),
-                 unit = std::pow(10, std::floor(std::log10(rough)));
-    double step = 10 * unit;
-    for (const double times : {1.0, 2.0, 5.0}) {
-      if (times * unit >= rough) {
-        step = times * unit;
-        break;
-      }
-    }
-    if (severity.scale == StabilitySeverity::Scale::kInteger)
-      step = std::max(1.0, std::round(step));
-    for (double t = std::ceil(low / step) * step; t <= high * (1 + 1e-9); t += step)
-      ticks.push_back(t);
+  for (int k = static_cast<int>(std::ceil(a - 1e-9)); k <= b + 1e-9; k += stride) {
+    ticks.push_back(sign * std::pow(10, k));
   }
-  const auto isEnd = [&](double tick) { return std::abs(severity.placeOf(tick)) < 0.02; };
-  if (std::none_of(ticks.begin(), ticks.end(), isEnd)) ticks.push_back(severity.from);
   return ticks;
 }
 
-// "1000", "3.2e5": no plus sign, no zeros in the power.
-std::string levelText(double level) {
-  const double size = std::abs(level);
-  if (level == 0 || (size < 99999.5 && size >= 1e-3)) {
-    return size >= 1000 ? fmt::format("{:.0f}", level) : fmt::format("{:.3g}", level);
+std::vector<double> roundSteps(double low, double high, bool whole) {
+  const double rough = (high - low) / (kMostTicks - 1);
+  const double unit = std::pow(10, std::floor(std::log10(rough)));
+  double step = 10 * unit;
+  for (const double times : {5.0, 2.0, 1.0}) {
+    if (times * unit >= rough) step = times * unit;
   }
-  const int power = static_cast<int>(std::floor(std::log10(size) + 1e-9));
-  return fmt::format("{:.3g}e{}", level / std::pow(10, power), power);
+  if (whole) step = std::max(1.0, std::round(step));
+  std::vector<double> ticks;
+  for (auto k = std::llround(std::ceil(low / step - 1e-9)); k * step <= high + 1e-9 * step; ++k) {
+    ticks.push_back(k * step);
+  }
+  return ticks;
+}
+
+// Whole decades, or round steps, between the ends of the range; and the ends.
+std::vector<double> ticksOf(const StabilitySeverity& severity) {
+  const double low = std::min(severity.from, severity.to);
+  const double high = std::max(severity.from, severity.to);
+  std::vector<double> ticks =
+      severity.scale == StabilitySeverity::Scale::kLog
+          ? decades(low, high)
+          : roundSteps(low, high, severity.scale == StabilitySeverity::Scale::kInteger);
+  for (const double end : {severity.from, severity.to}) {
+    const auto isNear = [&](double tick) {
+      return std::abs(severity.placeOf(tick) - severity.placeOf(end)) < kTickSpace;
+    };
+    if (std::none_of(ticks.begin(), ticks.end(), isNear)) ticks.push_back(end);
+  }
+  return ticks;
 }
 
 class Drawing {
@@ -125,13 +127,22 @@ double drawCase(const StabilityResult& result, double y, Drawing& out) {
   out.line(0, bottom, 1, bottom, "lw 0.8 lc rgb '#808080'");
   out.line(stated, top - 0.05, stated, bottom, "lw 1.4 dt (6,4) lc rgb '#202020' front");
   out.text(
-      1.035, bottom + 0.4,
+      0.5, bottom + 1.25,
       plotText(fmt::format("{}{}; stated: {}", severity.label, unit, levelText(severity.stated))),
-      "left font ',9' textcolor rgb '#505050'");
-  return bottom + 1.9;
+      "center font ',9' textcolor rgb '#505050'");
+  return bottom + 2.7;
 }
 
 }  // namespace
+
+std::string levelText(double level) {
+  const double size = std::abs(level);
+  if (level == 0 || (size < 99999.5 && size >= 1e-3)) {
+    return size >= 1000 ? fmt::format("{:.0f}", level) : fmt::format("{:.6g}", level);
+  }
+  const int power = static_cast<int>(std::floor(std::log10(size) + 1e-9));
+  return fmt::format("{:.3g}e{}", level / std::pow(10, power), power);
+}
 
 std::string failureText(const StabilityRun& run) {
   if (run.status == StabilityRun::Status::kTooLong) return "given up: too much work";

@@ -14,6 +14,9 @@ namespace app {
 std::string mapScript(const std::vector<const StabilityResult*>& cases, const std::string& title,
                       const std::string& name);
 
+// "1000", "0.49995", "3.2e5": no plus sign, no zeros in the power.
+std::string levelText(double level);
+
 // "at 3.7e5: joint_error, ball_socket 19, frame 34"
 std::string borderText(const StabilityBar& bar);
 

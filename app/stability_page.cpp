@@ -87,7 +87,7 @@ std::string failure(const StabilityResult& result) {
 
 std::string barRow(const StabilityBar& bar) {
   const auto level = [](const std::optional<double>& value) {
-    return value ? fmt::format("{:.4g}", *value) : std::string("–");
+    return value ? levelText(*value) : std::string("–");
   };
   std::string where, what;
   if (bar.firstFailure && bar.firstFailure->failure) {
@@ -99,7 +99,7 @@ std::string barRow(const StabilityBar& bar) {
     what = bar.firstFailure->message;
   }
   if (bar.border.holdsBeyond) {
-    what += fmt::format(" (not monotone: holds again at {:.4g})", *bar.border.holdsBeyond);
+    what += fmt::format(" (not monotone: holds again at {})", levelText(*bar.border.holdsBeyond));
   }
   return fmt::format(
       "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td>"
@@ -112,19 +112,19 @@ std::string severity(const StabilityResult& result, const fs::path& folder) {
   if (result.bars.empty()) return "";
   const scenes::StabilitySeverity& s = *result.study.severity;
   std::string html = fmt::format(
-      "<p>How far it can be pushed: {}{}, stated {:.4g}, searched from {:.4g} to {:.4g}.</p>\n"
+      "<p>How far it can be pushed: {}{}, stated {}, searched from {} to {}.</p>\n"
       "<table><tr><th>method</th><th>holds to</th><th>fails at</th><th>what fails first</th>"
       "<th>where</th></tr>\n",
-      escapeHtml(s.label), s.unit.empty() ? "" : " [" + escapeHtml(s.unit) + "]", s.stated, s.from,
-      s.to);
+      escapeHtml(s.label), s.unit.empty() ? "" : " [" + escapeHtml(s.unit) + "]",
+      levelText(s.stated), levelText(s.from), levelText(s.to));
   for (const StabilityBar& bar : result.bars) html += barRow(bar);
   html += "</table>\n";
   for (const StabilityBar& bar : result.bars) {
     const std::string shots = pictures(bar.shots, folder);
     if (shots.empty()) continue;
     html += fmt::format(
-        "<details><summary>{} at {:.4g}</summary>\n{}<p><code>{}</code></p></details>\n",
-        escapeHtml(bar.way.title), *bar.border.fails, shots,
+        "<details><summary>{} at {}</summary>\n{}<p><code>{}</code></p></details>\n",
+        escapeHtml(bar.way.title), levelText(*bar.border.fails), shots,
         escapeHtml(reproduction(result.study, overridesOf(bar.way, s, *bar.border.fails),
                                 *bar.firstFailure)));
   }

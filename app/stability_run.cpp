@@ -8,6 +8,7 @@
 
 #include "app/interrupt.h"
 #include "app/stopwatch.h"
+#include "scenes/metrics.h"
 
 namespace app {
 
@@ -27,6 +28,18 @@ double fastest(const scenes::Simulation& simulation) {
 StabilityVerdict verdictOf(const scenes::Checker::Verdict& verdict) {
   return {verdict.text,   verdict.holds,  verdict.value,           verdict.bound,
           verdict.atMost, verdict.atTime, verdict.expectation.line};
+}
+
+// The value of the first bad frame, which is not the worst one yet.
+std::string firstText(const scenes::Checker::Verdict& verdict) {
+  const scenes::Expectation& e = verdict.expectation;
+  const std::string unit = scenes::findMetric(e.metric)->unit;
+  const auto number = [&](double value) {
+    return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
+  };
+  return fmt::format("{}{} {}, expected {} {}", e.metric, e.body.empty() ? "" : " of " + e.body,
+                     number(verdict.failure->value),
+                     verdict.atMost ? "<=" : ">=", number(verdict.bound));
 }
 
 class Player {
@@ -102,6 +115,7 @@ class Player {
       if (run_.failure && run_.failure->frame <= frame) continue;
       run_.failure = StabilityFailure{frame, 1.0 * frame / scene_.fps, verdict.text, "", ""};
       if (!verdict.failure) continue;
+      run_.failure->what = firstText(verdict);
       run_.failure->bodies = verdict.failure->bodies;
       run_.failure->constraint = verdict.failure->constraint;
     }

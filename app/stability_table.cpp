@@ -51,12 +51,12 @@ std::string verdictText(const StabilityResult& result) {
 std::string severityText(const StabilityResult& result) {
   if (result.bars.empty()) return "";
   const scenes::StabilitySeverity& severity = *result.study.severity;
-  std::string text =
-      fmt::format("{}: {}{}, stated {:.4g}\n", result.study.name, severity.label,
-                  severity.unit.empty() ? "" : " [" + severity.unit + "]", severity.stated);
+  std::string text = fmt::format("{}: {}{}, stated {}\n", result.study.name, severity.label,
+                                 severity.unit.empty() ? "" : " [" + severity.unit + "]",
+                                 levelText(severity.stated));
   for (const StabilityBar& bar : result.bars) {
     const std::string holds =
-        bar.border.holds ? fmt::format("holds to {:.3g}", *bar.border.holds) : "holds nowhere";
+        bar.border.holds ? "holds to " + levelText(*bar.border.holds) : "holds nowhere";
     const std::string fails = bar.border.fails ? ", fails " + borderText(bar) : "";
     text += fmt::format("      {:<34} {}{}\n", bar.way.title, holds, fails);
   }

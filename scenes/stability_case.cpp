@@ -165,9 +165,19 @@ StabilityCase variantOf(const StabilityCase& base, const StabilityVariant& varia
   return result;
 }
 
-double roundToDigits(double value, int digits) {
-  if (value == 0 || !std::isfinite(value)) return value;
-  return std::stod(fmt::format("{:.{}e}", value, digits - 1));
+// Rounded to a thousandth of the range, so that a level can be read and typed.
+double roundLevel(double level, const StabilitySeverity& severity) {
+  constexpr int kDigits = 3;
+  const double from = severity.from, to = severity.to;
+  if (severity.scale == StabilitySeverity::Scale::kInteger) return std::round(level);
+  if (severity.scale == StabilitySeverity::Scale::kLog) {
+    const int more = static_cast<int>(std::ceil(-std::log10(std::abs(std::log(to / from)))));
+    return std::stod(fmt::format("{:.{}e}", level, kDigits - 1 + std::max(0, more)));
+  }
+  const int decimals = kDigits - static_cast<int>(std::floor(std::log10(std::abs(to - from))));
+  if (decimals >= 0) return std::stod(fmt::format("{:.{}f}", level, decimals));
+  const double unit = std::pow(10, -decimals);
+  return unit * std::round(level / unit);
 }
 
 }  // namespace
@@ -178,12 +188,11 @@ double StabilitySeverity::placeOf(double level) const {
 }
 
 double StabilitySeverity::levelAt(double place) const {
-  constexpr int kDigits = 3;
   if (place <= 0) return from;
   if (place >= 1) return to;
   const double level =
       scale == Scale::kLog ? from * std::pow(to / from, place) : from + place * (to - from);
-  return scale == Scale::kInteger ? std::round(level) : roundToDigits(level, kDigits);
+  return roundLevel(level, *this);
 }
 
 std::vector<std::string> StabilitySeverity::overrides(double level) const {

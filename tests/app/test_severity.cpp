@@ -1,9 +1,10 @@
-// Bisection finds borders that are known, with few trials, and notices where they are none.
+// Bisection finds borders that are known with few trials, and the map shows them.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "app/severity_search.h"
+#include "app/stability_map.h"
 
 namespace app {
 namespace {
@@ -78,6 +79,36 @@ TEST(SeveritySearch, ReportsALevelThatFailsBelowTheBorder) {
   EXPECT_LT(*found.holds, 10);
   EXPECT_GT(*found.holdsBeyond, 300);
   EXPECT_LE(found.trials.size(), static_cast<std::size_t>(kMostTrials));
+}
+
+TEST(SeverityMap, WritesLevelsAsPeopleDo) {
+  EXPECT_EQ(levelText(0), "0");
+  EXPECT_EQ(levelText(0.49995), "0.49995");
+  EXPECT_EQ(levelText(13300), "13300");
+  EXPECT_EQ(levelText(-1e7), "-1e7");
+  EXPECT_EQ(levelText(3.2e-5), "3.2e-5");
+}
+
+TEST(SeverityMap, HasABarForEachMethodAndNamesWhatFails) {
+  StabilityResult result;
+  result.study.title = "A_case";
+  result.study.severity = severityOf(1, 1000, 1e6);
+  StabilityBar bar;
+  bar.way = {"", "direct", "#0072b2", {}};
+  bar.border.holds = 1e4;
+  bar.border.fails = 2e4;
+  bar.firstFailure.emplace();
+  bar.firstFailure->status = StabilityRun::Status::kFails;
+  bar.firstFailure->failure = {34, 0.5, "overlap 0.2 m, expected <= 0.1 m", "a, b", "contact"};
+  result.bars.push_back(bar);
+  EXPECT_EQ(borderText(bar), "at 20000: overlap, a, b, frame 34");
+  const std::string script = mapScript({&result}, "Family", "map");
+  for (const char* part : {"A\\\\_case", "{/:Bold direct}", "'#0072b2'", "overlap, a, b, frame 34",
+                           "set output 'map.svg'", "stated: 1000"}) {
+    EXPECT_NE(script.find(part), std::string::npos) << part << "\n" << script;
+  }
+  result.bars.clear();
+  EXPECT_EQ(mapScript({&result}, "Family", "map"), "");
 }
 
 TEST(SeveritySearch, EndsWhereItIsInterrupted) {

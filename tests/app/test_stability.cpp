@@ -47,9 +47,10 @@ TEST_F(Stability, WhatHoldsIsShownWithItsNumbers) {
 TEST_F(Stability, WhatFailsNamesFrameBodyAndTheCommandThatDrawsIt) {
   const Outcome outcome = study("fails.toml");
   EXPECT_EQ(outcome.code, 3) << outcome.errors;
-  EXPECT_NE(outcome.output.find("first bad frame 6 (0.6 s): x of stone 1 m, expected <= 0.55 m, at "
-                                "stone\n"),
-            std::string::npos)
+  EXPECT_NE(
+      outcome.output.find("first bad frame 6 (0.6 s): x of stone 0.6 m, expected <= 0.55 m, at "
+                          "stone\n"),
+      std::string::npos)
       << outcome.output;
   const std::string command = "dbd render fails.toml --frames 5:8 --overlays contacts,joints";
   EXPECT_NE(outcome.output.find(command + "\n"), std::string::npos) << outcome.output;

@@ -142,6 +142,17 @@ TEST(StabilityCase, StatesTheLevelThatTheFileSays) {
   EXPECT_EQ(severity.overrides(100), (std::vector<std::string>{"body.p.mass=100"}));
 }
 
+TEST(StabilitySeverity, TellsLevelsOfANarrowRangeApart) {
+  StabilitySeverity severity;
+  severity.from = 0.5;
+  severity.to = 0.4999;
+  for (const auto scale : {StabilitySeverity::Scale::kLinear, StabilitySeverity::Scale::kLog}) {
+    severity.scale = scale;
+    EXPECT_NEAR(severity.levelAt(0.5), 0.49995, 1e-7);
+    EXPECT_NEAR(severity.placeOf(severity.levelAt(0.3)), 0.3, 0.01);
+  }
+}
+
 TEST(StabilityCase, OfAVariantHasItsOverridesAndItsOwnExpectations) {
   const std::vector<StabilityCase> cases = casesOf(kHead + kBody + kExpect + kVariant);
   ASSERT_EQ(cases.size(), 2u);
