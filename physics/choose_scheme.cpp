@@ -53,6 +53,14 @@ bool hasPast(const World::Impl& w, BodyId body) {
   return w.bodies.motion[body] == Motion::kKinematic || w.bodies.second.history[body].smooth;
 }
 
+// A turn in one substep that bdf2 does not resolve: beyond some .6 rad a free body that is not
+// isotropic gains angular momentum without bounds.
+bool turnsFar(const World::Impl& w, BodyId body) {
+  constexpr double kFar = 0.5;  // rad
+  const double turn = w.bodies.velocity[body].w.norm() * w.substepLength();
+  return turn > kFar && !isIsotropic(w.bodies.inertia[body]);
+}
+
 // What one body of an island met, all of it met.
 void shareWithinIslands(const World::Impl& w, std::vector<bool>& flag, bool shared) {
   const std::vector<BodyId>& island = w.stepper.island;
@@ -103,7 +111,8 @@ void chooseSchemes(World::Impl& w) {
     stepper.parted.assign(size, false);
   }
   for (const BodyId i : w.bodies.active) {
-    stepper.allowed[i] = {hasPast(w, i), !stepper.unresolved[i] && !stepper.bounded[i]};
+    stepper.allowed[i] = {hasPast(w, i) && !turnsFar(w, i),
+                          !stepper.unresolved[i] && !stepper.bounded[i]};
   }
   findIslands(w);
   settleSchemes(w);

@@ -30,6 +30,42 @@ void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
   pose.q = exponential(bodies.freeTurn[i]) * pose.q;  // (31)
 }
 
+// Newton on F(Omega_m) = I Omega_m - (1 - e) M - e exp(-h Omega_m) M; dF = I - e h [M']x to first
+// order in h.
+FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end) {
+  constexpr int kMostIterations = 30;
+  const Vec3 momentum = inertia.cwiseProduct(omega);
+  const double scale = momentum.norm();
+  FreeTurn turn{omega, omega, true};
+  if (scale == 0) return turn;
+  for (int k = 0; k < kMostIterations; ++k) {
+    const Vec3 after = exponential(-dt * turn.mean) * momentum;
+    const Vec3 residual = inertia.cwiseProduct(turn.mean) - ((1 - end) * momentum + end * after);
+    if (residual.norm() <= 4e-16 * scale || k == kMostIterations - 1) {
+      turn.converged = residual.norm() <= 1e-9 * scale;
+      turn.after = after.cwiseQuotient(inertia);
+      break;
+    }
+    Mat3 jacobian = -end * dt * skew(after);
+    jacobian.diagonal() += inertia;
+    turn.mean -= jacobian.inverse() * residual;
+  }
+  return turn;
+}
+
+// One turn after the other; the mean is that of a steady turn which ends at the same orientation.
+FreeTurn solveParts(const Vec3& inertia, const Vec3& omega, double dt, int parts) {
+  FreeTurn whole{Vec3::Zero(), omega, true};
+  Quat turned = Quat::Identity();
+  for (int k = 0; k < parts && whole.converged; ++k) {
+    const FreeTurn part = solveTurn(inertia, whole.after, dt / parts, 0.5);
+    turned = turned * exponential(dt / parts * part.mean);
+    whole = {whole.mean + part.mean / parts, part.after, part.converged};
+  }
+  whole.mean = unwrapped(logarithm(turned.normalized()), dt * whole.mean) / dt;
+  return whole;
+}
+
 }  // namespace
 
 Quat movedOrientation(const Bodies& bodies, BodyId i) {
@@ -47,25 +83,11 @@ Vec3 unwrapped(const Vec3& turn, const Vec3& free) {
   return (angle + 2 * kPi * std::nearbyint((free.dot(axis) - angle) / (2 * kPi))) * axis;
 }
 
-// Newton on F(Omega_m) = I Omega_m - (1 - e) M - e exp(-h Omega_m) M; dF = I - e h [M']x to first
-// order in h.
 FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end) {
-  constexpr int kMostIterations = 30;
-  const Vec3 momentum = inertia.cwiseProduct(omega);
-  const double scale = momentum.norm();
-  FreeTurn turn{omega, omega, true};
-  if (scale == 0) return turn;
-  for (int k = 0; k < kMostIterations; ++k) {
-    const Vec3 after = exponential(-dt * turn.mean) * momentum;
-    const Vec3 residual = inertia.cwiseProduct(turn.mean) - ((1 - end) * momentum + end * after);
-    if (residual.norm() <= 4e-16 * scale || k == kMostIterations - 1) {
-      turn.converged = residual.norm() <= 1e-9 * scale;
-      turn.after = after.cwiseQuotient(inertia);
-      break;
-    }
-    Mat3 jacobian = -end * dt * skew(after);
-    jacobian.diagonal() += inertia;
-    turn.mean -= jacobian.inverse() * residual;
+  constexpr int kMostParts = 4096;
+  FreeTurn turn = solveTurn(inertia, omega, dt, end);
+  for (int parts = 2; !turn.converged && end == 0.5 && parts <= kMostParts; parts *= 2) {
+    turn = solveParts(inertia, omega, dt, parts);
   }
   return turn.converged ? turn : FreeTurn{omega, omega, false};
 }

@@ -13,7 +13,7 @@ namespace physics {
 //   M = I Omega;  M' = exp(-h Omega_m) M,  Omega_m = I^-1 (M + M')/2
 // This is the implicit midpoint of NOTES 3.1 with the exact rotation in place of its linear part:
 // M' is M turned, so the angular momentum in the world is kept, and turned about Omega_m, so the
-// energy is kept too.
+// energy is kept too. What spins so fast that this has no solution near by turns in several parts.
 struct FreeTurn {
   Vec3 mean = Vec3::Zero();   // Omega_m [rad/s]
   Vec3 after = Vec3::Zero();  // Omega' = I^-1 M' [rad/s]
