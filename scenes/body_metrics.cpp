@@ -89,6 +89,13 @@ double fallen(const Sample& s) {
   return s.bodies.empty() ? 0 : countTilted(s) / static_cast<double>(s.bodies.size());
 }
 
+// Bodies that have fallen although one before them in the row has not.
+double outOfTurn(const Sample& s) {
+  const auto stands = [&](BodyId b) { return tiltOf(s, b) <= 45; };
+  const auto first = std::find_if(s.bodies.begin(), s.bodies.end(), stands);
+  return static_cast<double>(s.bodies.end() - first - std::count_if(first, s.bodies.end(), stands));
+}
+
 constexpr About kEach = About::kEachBody, kGroup = About::kGroup;
 constexpr Metric kMetrics[] = {
     {"height", "m", "y of a body's centre of mass", kEach, nullptr, heightOf},
@@ -122,6 +129,9 @@ constexpr Metric kMetrics[] = {
      countTilted, nullptr},
     {"fallen", "", "the fraction of the bodies that have tilted by more than 45 degrees", kGroup,
      fallen, nullptr},
+    {"out_of_turn", "",
+     "how many of the bodies have tilted by more than 45 degrees before one that comes earlier",
+     kGroup, outOfTurn, nullptr},
 };
 
 }  // namespace

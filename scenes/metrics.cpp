@@ -55,6 +55,11 @@ double energyDrift(const Sample& s) {
   return scale > 0 ? energyGain(s) / scale : energyGain(s);
 }
 
+double energyRise(const Sample& s) {
+  const double rise = s.now.total - s.before.total, scale = energyScale(s);
+  return scale > 0 ? rise / scale : rise;
+}
+
 double movingMass(const Sample& s) {
   const physics::Bodies& bodies = s.simulation.world().bodies();
   double mass = 0;
@@ -192,6 +197,8 @@ constexpr Metric kMetrics[] = {
     {"energy_drift", "", "(E - E0) / max(|E0|, largest kinetic energy so far)", kScene, energyDrift,
      nullptr},
     {"energy_gain", "J", "E - E0", kScene, energyGain, nullptr},
+    {"energy_rise", "", "(E - E of the frame before) / max(|E0|, largest kinetic energy so far)",
+     kScene, energyRise, nullptr},
     {"momentum_drift", "", "|P - P0| / max(|P0|, sqrt(2 M K), K the largest kinetic energy so far)",
      kScene, momentumDrift, nullptr},
     {"momentum_gain", "kg m/s", "|P - P0|", kScene, momentumGain, nullptr},

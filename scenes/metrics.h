@@ -14,6 +14,7 @@ struct Sample {
   const Simulation& simulation;
   const FrameMetrics& now;
   const FrameMetrics& start;
+  const FrameMetrics& before;                    // the frame before; at the first one itself
   const std::vector<physics::Pose>& startPoses;  // by BodyId
   double largestKinetic;                         // over the frames so far [J]
   std::vector<physics::BodyId> bodies;           // those that the expectation's `body` matches

@@ -59,6 +59,13 @@ void readPoses(TableReader& reader, RagdollWords& words) {
   }
 }
 
+void readRepeat(TableReader& reader, PoseScript& script) {
+  reader(Field{"repeat"}, script.repeat);
+  if (script.repeat && script.keys.size() < 2) {
+    reader.failAt("repeat", "expected at least two 'poses' to repeat");
+  }
+}
+
 void checkFixed(const TableReader& reader, const RagdollWords& words) {
   std::vector<std::string> known;
   for (const physics::Bone& bone : words.skeleton.bones) known.push_back(bone.name);
@@ -78,6 +85,7 @@ RagdollWords readWords(TableReader& reader, unsigned seed) {
   words.start = readTurns(pose ? *pose : stand, reader.spot({"pose"}), words.skeleton);
   physics::RagdollDef::fields(reader, words.def);
   readPoses(reader, words);
+  readRepeat(reader, words.script);
   checkFixed(reader, words);
   return words;
 }

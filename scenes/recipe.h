@@ -47,6 +47,7 @@ struct PoseScript {
   };
   std::vector<int> drives;
   std::vector<Key> keys;  // times increase
+  bool repeat = false;    // from the first key again after the last
 };
 
 // The target of an arm over time, or the body that it is.

@@ -6,16 +6,17 @@
 namespace scenes {
 
 void Sampler::observe(const Simulation& simulation) {
+  before_ = std::move(now_);
   now_ = simulation.metrics();
   if (startPoses_.empty()) {
-    start_ = now_;
+    start_ = before_ = now_;
     startPoses_ = simulation.world().bodies().pose;
   }
   largestKinetic_ = std::max(largestKinetic_, now_.kinetic);
 }
 
 Sample Sampler::sample(const Simulation& simulation, std::vector<physics::BodyId> bodies) const {
-  return {simulation, now_, start_, startPoses_, largestKinetic_, std::move(bodies)};
+  return {simulation, now_, start_, before_, startPoses_, largestKinetic_, std::move(bodies)};
 }
 
 std::vector<physics::BodyId> matchingBodies(const Simulation& simulation,

@@ -18,7 +18,7 @@ class Sampler {
   double time() const { return now_.time; }
 
  private:
-  FrameMetrics now_, start_;
+  FrameMetrics now_, start_, before_;
   std::vector<physics::Pose> startPoses_;
   double largestKinetic_ = 0;
 };

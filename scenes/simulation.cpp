@@ -30,6 +30,10 @@ Between<Key> between(const std::vector<Key>& keys, double time) {
 }
 
 void follow(const PoseScript& script, double time, physics::World& world) {
+  if (script.repeat) {
+    const double first = script.keys.front().time, period = script.keys.back().time - first;
+    time -= period * std::max(0.0, std::floor((time - first) / period));
+  }
   const auto [a, b, part] = between(script.keys, time);
   for (size_t i = 0; i < script.drives.size(); ++i) {
     world.setDriveTarget(script.drives[i], a.targets[i].slerp(part, b.targets[i]));

@@ -10,11 +10,17 @@ namespace {
 struct Grid {
   const ClothDef& def;
   std::vector<BodyId> nodes;
+  std::vector<Vec3> places;  // without scatter
 
   int wide() const { return def.nodes.i; }
   int high() const { return def.nodes.j; }
   int index(int i, int j) const { return j * wide() + i; }
   BodyId at(int i, int j) const { return nodes[index(i, j)]; }
+  // Between two nodes; absent: as they start.
+  std::optional<double> length(int a, int b) const {
+    if (def.scatter == 0) return {};
+    return (places[a] - places[b]).norm();
+  }
   std::vector<BodyId> row(int j) const {
     return {nodes.begin() + index(0, j), nodes.begin() + index(0, j + 1)};
   }
@@ -64,6 +70,18 @@ std::vector<bool> fixedNodes(const World& world, const ClothDef& def) {
   return fixed;
 }
 
+// By node, how far it starts from its place.
+std::vector<Vec3> scattered(const ClothDef& def, const std::vector<bool>& fixed) {
+  std::vector<bool> held = fixed;
+  for (const ClothAttachment& by : def.attach) held[by.node.j * def.nodes.i + by.node.i] = true;
+  std::vector<Vec3> shifts(fixed.size(), Vec3::Zero());
+  Random random(def.seed);
+  for (std::size_t k = 0; k < shifts.size(); ++k) {
+    if (def.scatter > 0 && !held[k]) shifts[k] = random.inBall(def.scatter);
+  }
+  return shifts;
+}
+
 void addNodes(World& world, Grid& grid) {
   const ClothDef& def = grid.def;
   const std::vector<bool> fixed = fixedNodes(world, def);
@@ -72,23 +90,26 @@ void addNodes(World& world, Grid& grid) {
           "expected 'u' and 'v' not to be parallel");
   const double volume = u.cross(v).norm() * 2 * def.radius;
   const double mass = nodeMassOf(def.matter, volume, grid.wide() * grid.high());
+  const std::vector<Vec3> shifts = scattered(def, fixed);
   for (int j = 0; j < grid.high(); ++j) {
     for (int i = 0; i < grid.wide(); ++i) {
       const double s = static_cast<double>(i) / (grid.wide() - 1) - 0.5;
       const double t = static_cast<double>(j) / (grid.high() - 1) - 0.5;
-      const Vec3 place = def.position + s * u + t * v;
-      grid.nodes.push_back(addNode(world, place, mass, fixed[grid.index(i, j)], def.matter));
+      const int k = grid.index(i, j);
+      grid.places.emplace_back(def.position + s * u + t * v);
+      const Vec3 start = grid.places[k] + shifts[k];
+      grid.nodes.push_back(addNode(world, start, mass, fixed[k], def.matter));
     }
   }
 }
 
 // Links of the grid: those it touches other things with.
-std::vector<std::array<BodyId, 2>> threads(const Grid& grid) {
-  std::vector<std::array<BodyId, 2>> links;
+std::vector<std::array<int, 2>> threads(const Grid& grid) {
+  std::vector<std::array<int, 2>> links;
   for (int j = 0; j < grid.high(); ++j) {
     for (int i = 0; i < grid.wide(); ++i) {
-      if (i > 0) links.push_back({grid.at(i - 1, j), grid.at(i, j)});
-      if (j > 0) links.push_back({grid.at(i, j - 1), grid.at(i, j)});
+      if (i > 0) links.push_back({grid.index(i - 1, j), grid.index(i, j)});
+      if (j > 0) links.push_back({grid.index(i, j - 1), grid.index(i, j)});
     }
   }
   return links;
@@ -96,28 +117,32 @@ std::vector<std::array<BodyId, 2>> threads(const Grid& grid) {
 
 void addEdges(World& world, const Grid& grid) {
   const ClothDef& def = grid.def;
-  for (const auto& [a, b] : threads(grid)) addEdge(world, a, b, def.edge);
+  const auto join = [&](int a, int b, const EdgeMatter& matter) {
+    addEdge(world, grid.nodes[a], grid.nodes[b], matter, grid.length(a, b));
+  };
+  for (const auto& [a, b] : threads(grid)) join(a, b, def.edge);
   if (!def.shear) return;
   EdgeMatter diagonal = def.edge;
   diagonal.compliance = def.shearCompliance;
   for (int j = 1; j < grid.high(); ++j) {
     for (int i = 1; i < grid.wide(); ++i) {
-      addEdge(world, grid.at(i - 1, j - 1), grid.at(i, j), diagonal);
-      addEdge(world, grid.at(i, j - 1), grid.at(i - 1, j), diagonal);
+      join(grid.index(i - 1, j - 1), grid.index(i, j), diagonal);
+      join(grid.index(i, j - 1), grid.index(i - 1, j), diagonal);
     }
   }
 }
 
 void addLines(World& world, const Grid& grid) {
-  const auto addLine = [&](const std::vector<BodyId>& line) {
+  const auto addLine = [&](const std::vector<BodyId>& line, double length) {
     addBending(world, line, grid.def.bending);
     if (!grid.def.totalLength || line.size() < 3 || !anyMoves(world, line)) return;
     RopeLengthDef total;
     total.bodies = line;
+    if (grid.def.scatter > 0) total.length = length;
     world.add(total);
   };
-  for (int j = 0; j < grid.high(); ++j) addLine(grid.row(j));
-  for (int i = 0; i < grid.wide(); ++i) addLine(grid.column(i));
+  for (int j = 0; j < grid.high(); ++j) addLine(grid.row(j), grid.def.size.x());
+  for (int i = 0; i < grid.wide(); ++i) addLine(grid.column(i), grid.def.size.y());
 }
 
 // Two to a cell, front side out; diagonals alternate, so that no direction is preferred.
@@ -154,7 +179,7 @@ void addAir(World& world, const AirDrag& air, const SoftParts& parts) {
 SoftParts add(World& world, const ClothDef& def) {
   require(def.nodes.i >= 2 && def.nodes.j >= 2, "expected at least 2 x 2 nodes");
   requireCount(static_cast<double>(def.nodes.i) * def.nodes.j);
-  Grid grid{def, {}};
+  Grid grid{def, {}, {}};
   addNodes(world, grid);
   addEdges(world, grid);
   addLines(world, grid);
@@ -165,7 +190,7 @@ SoftParts add(World& world, const ClothDef& def) {
   }
   SoftSurfaceDef surface;
   surface.nodes = parts.nodes;
-  surface.links = threads(grid);
+  for (const auto& [a, b] : threads(grid)) surface.links.push_back({grid.nodes[a], grid.nodes[b]});
   surface.radius = def.radius;
   surface.friction = world.bodies().friction[parts.nodes[0]];
   world.add(surface);

@@ -25,7 +25,9 @@ struct ClothAttachment {  // a node that a body holds
   }
 };
 
-// The placement is the middle of the sheet. Node [i, j] has index j * nodes[0] + i.
+// The placement is the middle of the sheet. `scatter`: nodes that nothing holds start anywhere
+// within this distance of their places; what joins them is as long as without it. Node [i, j] has
+// index j * nodes[0] + i.
 struct ClothDef {
   static constexpr const char* kWord = "cloth";
   Vec3 position = Vec3::Zero();
@@ -33,6 +35,8 @@ struct ClothDef {
   Vec2 size = Vec2::Ones();  // m, along u and v
   GridIndex nodes{20, 20};
   double radius = 0.01;  // m, half the thickness
+  double scatter = 0;    // m
+  unsigned seed = 1;
   SoftMatter matter;
   EdgeMatter edge;
   bool shear = false;          // both diagonals of every cell as well
@@ -51,6 +55,8 @@ struct ClothDef {
     visit(Field{"size", Unit::kMetre, true, kMorePositive}, d.size);
     visit(Field{"nodes", Unit::kNone, true, 2, kMostBodies}, d.nodes);
     visit(Field{"radius", Unit::kMetre, false, kMorePositive}, d.radius);
+    visit(Field{"scatter", Unit::kMetre, false, 0}, d.scatter);
+    visit(Field{"seed"}, d.seed);
     SoftMatter::fields(visit, d.matter);
     EdgeMatter::fields(visit, d.edge);
     visit(Field{"shear"}, d.shear);

@@ -31,7 +31,8 @@ struct SoftBodyDef {
   double scale = 1;
   std::optional<TetBox> box;  // or
   std::optional<TetMesh> mesh;
-  Vec3 startScale = Vec3::Ones();  // along the mesh's axes: it starts deformed by this
+  Vec3 startScale = Vec3::Ones();  // along the mesh's axes: it starts deformed by this,
+                                   // 0: flat, below 0: inside out
   SoftMatter matter;
   double radius = 0.01;  // m, of the skin
   EdgeMatter edge{Edges::kSprings, 0, false, 1000, 1};
@@ -43,7 +44,7 @@ struct SoftBodyDef {
   static void fields(V& v, D& d) {
     Placement::fields(v, d.place);
     v(Field{"scale", Unit::kNone, false, kMorePositive}, d.scale);
-    v(Field{"start_scale", Unit::kNone, false, kMorePositive}, d.startScale);
+    v(Field{"start_scale"}, d.startScale);
     v(Field{"box"}, d.box);
     v(Field{"mesh"}, d.mesh);
     SoftMatter::fields(v, d.matter);

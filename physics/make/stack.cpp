@@ -15,6 +15,22 @@ Vec3 extents(const Shape& shape) {
   return size;
 }
 
+// Bodies in the order of latticePoses: x runs first, then z, then y.
+void joinNeighbours(World& world, const std::array<int, 3>& counts,
+                    const std::vector<BodyId>& ids) {
+  const int strides[] = {1, counts[0] * counts[2], counts[0]};
+  for (int i = 0; i < static_cast<int>(ids.size()); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (i / strides[axis] % counts[axis] == 0) continue;
+      BallSocketDef joint;
+      joint.bodies = {ids[i - strides[axis]], ids[i]};
+      const std::vector<Pose>& pose = world.bodies().pose;
+      joint.at = 0.5 * (pose[joint.bodies[0]].x + pose[joint.bodies[1]].x);
+      world.add(joint);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<BodyId> add(World& world, const StackDef& def) {
@@ -86,6 +102,7 @@ std::vector<BodyId> add(World& world, const GridDef& def) {
     body.velocity = def.velocity;
     ids.push_back(world.add(body));
   }
+  if (def.joined) joinNeighbours(world, def.lattice.counts, ids);
   return ids;
 }
 

@@ -68,7 +68,8 @@ struct WallDef {
 };
 
 // Copies of one or several shapes in turn on a lattice; the placement is the middle of its lowest
-// layer of centres. Without `spacing` the largest shape's neighbours just touch.
+// layer of centres. Without `spacing` the largest shape's neighbours just touch. `joined`: a ball
+// and socket half way between each and its neighbours along x, y and z.
 struct GridDef {
   static constexpr const char* kWord = "grid";
   Placement place;
@@ -76,6 +77,7 @@ struct GridDef {
   std::vector<Shape> shapes{Box{}};
   Matter matter;
   Velocity velocity;
+  bool joined = false;
   unsigned seed = 1;
   template <class V, class D>
   static void fields(V& v, D& d) {
@@ -85,6 +87,7 @@ struct GridDef {
     Matter::fields(v, d.matter);
     v(Field{"velocity"}, d.velocity.v);
     v(Field{"angular_velocity"}, d.velocity.w);
+    v(Field{"joined"}, d.joined);
     v(Field{"seed"}, d.seed);
   }
 };

@@ -34,6 +34,47 @@ TEST(Cloth, HasTwoDiagonalsToEveryCellAndNoTotalLengthOnRequest) {
   EXPECT_EQ(countOf(world, "rope_length"), 0);
 }
 
+TEST(Cloth, ThatIsScatteredHasTheLengthsOfOneThatIsNot) {
+  World flat, scattered;
+  ClothDef def = clothOf(5, 4);
+  def.shear = true;
+  def.pins = ClothPins::kTopRow;
+  const SoftParts at = add(flat, def);
+  def.scatter = 0.3;
+  const SoftParts parts = add(scattered, def);
+  double farthest = 0;
+  for (int k = 0; k < 20; ++k) {
+    const double off = (placeOf(scattered, parts.nodes[k]) - placeOf(flat, at.nodes[k])).norm();
+    farthest = std::max(farthest, off);
+    if (k < 5) {
+      EXPECT_EQ(off, 0);  // pinned
+    }
+  }
+  EXPECT_GT(farthest, 0.1);
+  EXPECT_LE(farthest, 0.3);
+  for (const KindError& error : flat.constraintErrors()) EXPECT_LT(error.largest, 1e-12);
+  std::vector<Pose> poses = flat.bodies().pose;
+  ASSERT_TRUE(scattered.setState(poses, flat.bodies().velocity));
+  for (const KindError& error : scattered.constraintErrors()) {
+    EXPECT_LT(error.largest, 1e-12) << error.kind;
+  }
+}
+
+TEST(SoftBody, MayStartFlatOrInsideOut) {
+  for (const double height : {0.0, -1.0}) {
+    World world;
+    SoftBodyDef def;
+    def.box = TetBox{Vec3::Ones(), {2, 2, 2}};
+    def.startScale = Vec3(1, height, 1);
+    add(world, def);
+    for (const KindError& error : world.constraintErrors()) {
+      if (error.kind != "volume") continue;
+      EXPECT_NEAR(error.largest, 1 - height, 1e-12);
+    }
+    ASSERT_FALSE(world.step().notFinite.has_value());
+  }
+}
+
 TEST(Cloth, LiesAboutItsMiddleWithItsFrontUp) {
   World world;
   ClothDef def = clothOf(3, 3);

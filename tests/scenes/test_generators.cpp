@@ -23,6 +23,19 @@ TEST(Generator, GridMakesTheProductOfItsCounts) {
   EXPECT_EQ(bodiesOf("[[grid]]\ncounts = [2, 3, 4]\nshapes = [{ sphere = { radius = 1 } }]\n"), 24);
 }
 
+TEST(Generator, GridThatIsJoinedHasAJointBetweenAllNeighbours) {
+  const Simulation simulation(sceneOf(
+      "[[grid]]\ncounts = [4, 3, 2]\nshapes = [{ sphere = { radius = 1 } }]\njoined = true\n"));
+  const auto errors = simulation.world().constraintErrors();
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].kind, "ball_socket");
+  EXPECT_EQ(errors[0].count, 3 * 3 * 2 + 4 * 2 * 2 + 4 * 3 * 1);
+  for (const physics::JointReport& joint : simulation.world().joints()) {
+    const auto& pose = simulation.world().bodies().pose;
+    EXPECT_NEAR((pose[joint.a].x - pose[joint.b].x).norm(), 2, 1e-12);  // neighbours, not others
+  }
+}
+
 TEST(Generator, ChainWithALoadHasOneBodyMore) {
   EXPECT_EQ(bodiesOf("[[chain]]\nfrom = [0, 0, 0]\nlength = 0.2\ncount = 5\n"
                      "end = { shape = { sphere = { radius = 1 } }, mass = 9 }\n"),

@@ -69,6 +69,43 @@ TEST(Metric, TiltOfABodyThatTurnsAboutZIsItsAngle) {
   EXPECT_NEAR(checker.verdicts()[0].value, 0.5 * 180 / M_PI, 1e-9);
 }
 
+TEST(Metric, EnergyRiseIsThatOfAFrame) {
+  const Scene scene = sceneOf(
+      "duration = 0.1\n[[body]]\nname = \"p\"\nshape = { sphere = { radius = 1 } }\nmass = 2\n"
+      "velocity = [3, 0, 0]\n[[force]]\nbody = \"p\"\nforce = [120, 0, 0]\n"
+      "[[expect]]\nmetric = \"energy_rise\"\nat_most = 1\nfrom = 0.1\n");
+  Simulation simulation(scene);
+  Checker checker(scene);
+  std::vector<double> energy;
+  for (int i = 0; i < scene.frameCount(); ++i) {
+    checker.observe(simulation);
+    energy.push_back(simulation.metrics().total);
+    simulation.advance();
+  }
+  EXPECT_NEAR(energy[0], 9, 1e-12);
+  EXPECT_NEAR(checker.verdicts()[0].value, (energy[6] - energy[5]) / energy[6], 1e-12);
+  EXPECT_GT(energy[6], energy[5]);
+}
+
+// Three rods that turn about z: the second is over first.
+TEST(Metric, OutOfTurnCountsWhatFellBeforeAnEarlierOne) {
+  std::string text = "duration = 1\n";
+  for (const char* speed : {"0.5", "1.5", "0.1"}) {
+    text += "[[body]]\nshape = { sphere = { radius = 1 } }\nname = \"r" + std::string(speed) +
+            "\"\nangular_velocity = [0, 0, " + speed + "]\n";
+  }
+  text += "[[expect]]\nmetric = \"out_of_turn\"\nbody = \"r*\"\nat_most = 0\n";
+  const Scene scene = sceneOf(text);
+  Simulation simulation(scene);
+  Checker checker(scene);
+  for (int i = 0; i < scene.frameCount(); ++i) {
+    checker.observe(simulation);
+    simulation.advance();
+  }
+  EXPECT_EQ(checker.verdicts()[0].value, 1);
+  EXPECT_NEAR(checker.verdicts()[0].atTime, M_PI / 4 / 1.5, 1.0 / 60);
+}
+
 TEST(Metric, NamesAreUnique) {
   const std::vector<std::string> names = metricNames();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());

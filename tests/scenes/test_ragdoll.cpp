@@ -65,6 +65,25 @@ TEST(Ragdoll, FollowsItsPoses) {
   EXPECT_GT(at(simulation, "ragdoll.hand_l").x(), 0.6);
 }
 
+TEST(Ragdoll, FollowsItsPosesAgainAndAgainWhereTheyRepeat) {
+  const std::string poses =
+      "fixed = [\"pelvis\"]\nrepeat = true\nposes = [{ time = 0, pose = \"stand\" }, { time = 1, "
+      "pose "
+      "= \"t_pose\" }, { time = 2, pose = \"stand\" }]\n";
+  Simulation simulation(sceneOf(kDriven + poses));
+  const auto handAt = [&](int frame) {
+    while (simulation.frame() < frame) simulation.advance();
+    return at(simulation, "ragdoll.hand_l").x();
+  };
+  EXPECT_LT(handAt(7 * 60 - 60), 0.4);  // 6 s: as at the start
+  EXPECT_GT(handAt(7 * 60 + 5), 0.6);   // 7 s, and a little later for the drive's lag
+}
+
+TEST(Ragdoll, RefusesToRepeatOnePose) {
+  EXPECT_EQ(errorOf(kDriven + "repeat = true\nposes = [{ time = 0, pose = \"stand\" }]\n"),
+            "test.toml:3:10: ragdoll.repeat: expected at least two 'poses' to repeat");
+}
+
 TEST(Ragdoll, WantsADriveForItsPoses) {
   EXPECT_EQ(errorOf("[[ragdoll]]\nposes = [{ time = 0, pose = \"stand\" }]\n"),
             "test.toml:2:9: ragdoll.poses: expected a 'drive' as well, which follows the poses");
