@@ -15,7 +15,7 @@ std::string describe(const scenes::Simulation& simulation,
   std::string text = fmt::format("{}: not finite in the step from frame {}, substep {}",
                                  simulation.scene().name, simulation.frame(), notFinite.substep);
   if (notFinite.body >= 0) text += fmt::format(", body '{}'", simulation.bodyName(notFinite.body));
-  text += notFinite.constraint.empty() ? std::string(", in its free motion")
+  text += notFinite.constraint.empty() ? std::string(", in its own motion")
                                        : ", constraint " + notFinite.constraint;
   return text + "; what was written up to this frame is kept";
 }

@@ -170,7 +170,11 @@ ExitCode renderScene(const RenderOptions& options) {
     return result.end.code;
   }
   if (!options.common.quiet) say(summary(scene, job, result));
-  if (options.common.hash) say(result.record.stateHashes.at(job.frames.back()) + "\n");
+  if (options.common.hash) {
+    const bool done = result.end.code == ExitCode::kDone;  // else: of the last frame there is
+    const int last = done ? job.frames.back() : result.end.frames - 1;
+    say(result.record.stateHashes.at(last) + "\n");
+  }
   if (!result.end.problem.empty()) note("dbd: " + result.end.problem + "\n");
   return result.end.code;
 }

@@ -10,6 +10,7 @@
 #include "app/interrupt.h"
 #include "app/machine.h"
 #include "app/stopwatch.h"
+#include "physics/state.h"
 
 namespace app {
 
@@ -179,7 +180,8 @@ bool StudyRun::advance() {
   if (!good || !peer_) return good;
   peer_->read(poses_, velocities_);
   if (simulation_.place(poses_, velocities_)) return true;
-  problem_ = "a number is not finite";
+  const physics::BodyId body = physics::firstNotFinite(poses_, velocities_);
+  problem_ = fmt::format("not finite: body '{}'", simulation_.bodyName(body));
   return false;
 }
 

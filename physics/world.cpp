@@ -2,17 +2,15 @@
 // Numbers in brackets are the paper's equations.
 #include "physics/world.h"
 
-#include <cmath>
-
 #include "physics/choose_scheme.h"
 #include "physics/effects/restitution.h"
 #include "physics/effects/second_order.h"
 #include "physics/methods/direct.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
 #include "physics/methods/rival.h"
+#include "physics/not_finite.h"
 #include "physics/presence.h"
 #include "physics/probe.h"
-#include "physics/world_impl.h"
 
 namespace physics {
 namespace {
@@ -71,18 +69,6 @@ void solveConstraints(World::Impl& w, double h, StepReport& report) {
     if (!findContacts(w, w.bodies.pose)) return;
     for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
     solveOnce(w, h, report);
-  }
-}
-
-void checkFinite(const World::Impl& w, StepReport& report) {
-  for (const BodyId i : w.bodies.active) {
-    if (report.notFinite) return;
-    const Pose& pose = w.bodies.pose[i];
-    const Velocity& velocity = w.bodies.velocity[i];
-    if (!std::isfinite(pose.x.sum() + pose.q.coeffs().sum() + velocity.v.sum() +
-                       velocity.w.sum())) {
-      report.notFinite = {report.substeps, i, ""};
-    }
   }
 }
 
@@ -174,11 +160,13 @@ void countLooks(const Collider::Counts& before, const Collider::Counts& after, S
 void substepOfRival(World::Impl& w, int k, double h, StepReport& report) {
   turnTo("motion");
   coast(w, h);
+  checkFinite(w, report);
+  if (report.notFinite) return;
   lookForContacts(w, k, h);
   turnTo("rival");
   rivalSubstep(w, h, report);
   turnTo("");
-  checkFinite(w, report);
+  checkSolved(w, report);
   countSubstep(w, report);
 }
 
@@ -190,7 +178,7 @@ void substep(World::Impl& w, int k, double h, StepReport& report) {
   isSecondOrder(w.settings) ? displaceBySchemes(w, k, h, report) : displaceAll(w, k, h, report);
   if (!goesOn(w, report)) return;
   finish(w, h, report);
-  checkFinite(w, report);
+  checkSolved(w, report);
   if (isStatic) bringToRest(w.bodies);
   countSubstep(w, report);
 }
@@ -202,30 +190,18 @@ void substeps(World::Impl& w, StepReport& report) {
   for (int k = 0; k < w.substeps && goesOn(w, report); ++k) substep(w, k, h, report);
 }
 
-void begin(World::Impl& w) {
+void begin(World::Impl& w, StepReport& report) {
   if (w.settings.contact) w.takeShapes();
   wakeCalled(w);
   for (const BodyId i : w.bodies.active) {
     w.last.pose[i] = w.bodies.pose[i];
     w.last.velocity[i] = w.bodies.velocity[i];
   }
+  checkFinite(w, report);  // what was set since the last step
   turnTo("arm");
   drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
   turnTo("");
   keepStart(w);
-}
-
-void restore(World::Impl& w) {
-  for (const BodyId i : w.bodies.active) {
-    w.bodies.pose[i] = w.last.pose[i];
-    w.bodies.velocity[i] = w.last.velocity[i];
-  }
-  w.contacts.pairs.clear();
-  w.softContacts.clear();
-  undo(w.arms);
-  forEachKind(w.kinds, [](auto& kind) {
-    for (auto& lambda : kind.set.lambda) lambda = {};
-  });
 }
 
 void end(World::Impl& w, StepReport& report) {
@@ -240,7 +216,8 @@ void end(World::Impl& w, StepReport& report) {
   }
   for (const BodyId i : w.loaded) w.loads[i] = {};
   w.loaded.clear();
-  ++w.stepCount;
+  w.last.replaced.clear();
+  w.stepCount += report.notFinite ? 0 : 1;
 }
 
 }  // namespace
@@ -249,7 +226,7 @@ StepReport World::step() {
   Impl& w = *impl_;
   const Collider::Counts before = w.collider.counts();
   StepReport report;
-  begin(w);
+  begin(w, report);
   do {
     turnTo("local_substeps");
     takeGroups(w);

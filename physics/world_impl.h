@@ -60,6 +60,8 @@ struct World::Impl {
   struct Snapshot {  // the last good state
     std::vector<Pose> pose;
     std::vector<Velocity> velocity;
+    // What setVelocity() replaced by something that is not finite, since the last step.
+    std::vector<std::pair<BodyId, Velocity>> replaced;
   } last;
 
   struct {  // the start of a step that may be made anew

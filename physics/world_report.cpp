@@ -60,7 +60,14 @@ int World::bodyCount() const { return impl_->bodies.size(); }
 void World::setVelocity(BodyId body, const Velocity& velocity) {
   require(body > 0 && body < bodyCount(), "no such body");
   callAwake(*impl_, body);
-  impl_->bodies.velocity[body] = velocity;
+  Velocity& now = impl_->bodies.velocity[body];
+  auto& replaced = impl_->last.replaced;
+  if (velocity.v.allFinite() && velocity.w.allFinite()) {
+    std::erase_if(replaced, [&](const auto& set) { return set.first == body; });
+  } else {
+    replaced.emplace_back(body, now);  // the step will name the body and put this back
+  }
+  now = velocity;
   forgetPast(impl_->bodies.second, body);
 }
 

@@ -3,6 +3,7 @@
 
 #include "physics/constraint_item.h"
 #include "physics/effects/second_order.h"
+#include "physics/state.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -67,14 +68,19 @@ FreeFlight World::Impl::flight(double dt) {
   return flight;
 }
 
+BodyId firstNotFinite(std::span<const Pose> poses, std::span<const Velocity> velocities) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!isFinite(poses[i], velocities[i])) return static_cast<BodyId>(i);
+  }
+  return -1;
+}
+
 bool World::setState(std::span<const Pose> poses, std::span<const Velocity> velocities) {
   Bodies& b = impl_->bodies;
   const auto count = static_cast<std::size_t>(b.size());
   require(poses.size() == count && velocities.size() == count,
           "a state needs a pose and a velocity for every body, the world body included");
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!isFinite(poses[i], velocities[i])) return false;
-  }
+  if (firstNotFinite(poses, velocities) >= 0) return false;
   wakeAll(*impl_);
   for (BodyId i = kWorldBody + 1; i < b.size(); ++i) {
     b.pose[i] = poses[i];

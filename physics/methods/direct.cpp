@@ -236,7 +236,7 @@ bool newtonStep(World::Impl& world, double dt) {
   if (!world.joints.isLaidOutFor(world.jointRows.size())) {
     world.joints.layOut(world.jointRows, world.bodies);
   }
-  world.jointChange.resize(world.jointRows.size());
+  world.jointChange.assign(world.jointRows.size(), Vec3::Zero());
   if (!world.joints.solve(world.jointRows, world.jointChange)) return false;
   double sum = 0;
   for (const Vec3& change : world.jointChange) sum += change.sum();
@@ -282,7 +282,7 @@ void direct(World::Impl& world, double dt, StepReport& report) {
     turnTo("direct");
     report.constraintEvaluations += static_cast<std::int64_t>(world.jointRows.size());
     if (newtonStep(world, dt)) return true;
-    report.notFinite = {report.substeps, world.jointRows.front().bodies[1], "joints together"};
+    nameWorstJoint(world, report);
     return false;
   });
 }

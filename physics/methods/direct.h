@@ -21,4 +21,8 @@ void direct(World::Impl& world, double dt, StepReport& report);
 // Velocities at the end of the symmetric scheme: J v = 0 for every joint.
 void projectJoints(World::Impl& world);
 
+// Names a joint where the system of all broke down: the furthest off, first of all one that is not
+// finite.
+void nameWorstJoint(const World::Impl& world, StepReport& report);
+
 }  // namespace physics

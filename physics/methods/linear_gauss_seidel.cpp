@@ -125,8 +125,10 @@ void sweepPoint(FrozenPoint& point, double xi, World::Impl& world) {
   }
 }
 
+// The first row whose multiplier would not be finite; rows.size(): none.
 template <class C>
-void sweepRows(Set<C>& set, std::vector<FrozenRow<C>>& rows, std::vector<Correction>& moved) {
+std::size_t sweepRows(Set<C>& set, std::vector<FrozenRow<C>>& rows,
+                      std::vector<Correction>& moved) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     auto& [row, response] = rows[k].at;
     if (!row.active || !(rows[k].a.trace() > 1e-300)) continue;
@@ -141,6 +143,7 @@ void sweepRows(Set<C>& set, std::vector<FrozenRow<C>>& rows, std::vector<Correct
     } else {
       next = solved(item, row, rows[k].a, set.tuned[k], (row.c + follow).eval(), total);
     }
+    if (!next.allFinite()) return k;
     for (std::size_t b = 0; b < item.bodies.size(); ++b) {
       const Correction step = displacementOf<C>(response, b, next - total);
       moved[item.bodies[b]].dx += step.dx;
@@ -148,6 +151,18 @@ void sweepRows(Set<C>& set, std::vector<FrozenRow<C>>& rows, std::vector<Correct
     }
     total = next;
   }
+  return rows.size();
+}
+
+bool sweepKinds(World::Impl& world, StepReport& report) {
+  forEachKind(world.kinds, [&](auto& kind) {
+    using K = std::decay_t<decltype(kind)>;
+    if (report.notFinite) return;
+    const std::size_t k = sweepRows(kind.set, rowsOf<typename K::Item>(world), world.linear.moved);
+    if (k == kind.set.items.size()) return;
+    nameCulprit(report, K::kWord, k, moverOf(kind.set.items[k], world.bodies));
+  });
+  return !report.notFinite;
 }
 
 // The multipliers back to where reports look for them.
@@ -178,10 +193,7 @@ void linearGaussSeidel(World::Impl& world, double dt, StepReport& report) {
   freezeContacts(world, dt);
   world.linear.moved.assign(world.bodies.pose.size(), Correction{});
   for (int k = 0; k < world.settings.iterations; ++k) {
-    forEachKind(world.kinds, [&](auto& kind) {
-      using C = typename std::decay_t<decltype(kind)>::Item;
-      sweepRows(kind.set, rowsOf<C>(world), world.linear.moved);
-    });
+    if (!sweepKinds(world, report)) return;
     for (FrozenPoint& point : world.linear.points) {
       sweepPoint(point, world.settings.relaxation, world);
     }

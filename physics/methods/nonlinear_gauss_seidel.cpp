@@ -43,7 +43,7 @@ bool sweepKind(K& kind, Bodies& bodies, double dt, bool joints, StepReport& repo
     if (!joints && isSolvedDirectly(set.items[k])) continue;
     ++report.constraintEvaluations;
     if (solveOne(set, k, bodies, at)) continue;
-    nameCulprit(report, K::kWord, k, set.items[k].bodies[0]);
+    nameCulprit(report, K::kWord, k, moverOf(set.items[k], bodies));
     return false;
   }
   return true;

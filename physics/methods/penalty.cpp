@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "physics/methods/penalty_springs.h"
+#include "physics/not_finite.h"
 
 namespace physics {
 namespace {
@@ -168,6 +169,29 @@ std::optional<double> newtonStep(World::Impl& world, double dt) {
   return largest;
 }
 
+// Who is named where the system broke down.
+void nameStiffest(World::Impl& world, StepReport& report) {
+  double most = -1;
+  const auto offer = [&](const char* kind, std::size_t k, BodyId body, double stiffness) {
+    if (!std::isfinite(most) || stiffness <= most) return;
+    most = stiffness;
+    nameCulprit(report, kind, k, body);
+  };
+  forEachKind(world.kinds, [&](auto& kind) {
+    using K = std::decay_t<decltype(kind)>;
+    for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
+      const auto& stiff = stiffRowsOf<typename K::Item>(world)[k];
+      if (!stiff.at.row.active) continue;
+      offer(K::kWord, k, moverOf(kind.set.items[k], world.bodies), stiff.k.norm());
+    }
+  });
+  for (std::size_t k = 0; k < world.penalty.touches.size(); ++k) {
+    const StiffTouch& contact = world.penalty.touches[k];
+    offer("contact point", k, contact.touch.bodies[0], contact.k.norm());
+  }
+  if (!report.notFinite) nameCulprit(report, "all springs together", 0, kWorldBody);
+}
+
 // lambda of the last Newton step, where reports and the next substep look for it.
 void keepTotals(World::Impl& world) {
   forEachRow(world, [&](auto& item, auto& total, auto& stiff) {
@@ -201,6 +225,8 @@ void penaltyExplicit(World::Impl& world, double dt, StepReport& report) {
 void penalty(World::Impl& world, double dt, StepReport& report) {
   const PenaltyScheme scheme = schemeOf(world.settings, true);
   accelerate(world, dt, Gyroscopic::kImplicit);
+  checkFinite(world, report);
+  if (report.notFinite) return;
   world.penalty.free = world.bodies.velocity;
   for (int k = 0; k < world.settings.iterations; ++k) {
     takeMoved(world, dt);
@@ -208,7 +234,7 @@ void penalty(World::Impl& world, double dt, StepReport& report) {
     const Configuration x{world.bodies.pose, world.bodies.start, dt};
     if (!takeSprings(world, x, scheme, k == 0, report)) return;
     const std::optional<double> change = newtonStep(world, dt);
-    if (!change) return nameCulprit(report, "all springs together", 0, kWorldBody);
+    if (!change) return nameStiffest(world, report);
     ++report.iterations;
     if (*change < world.settings.tolerance) break;
   }

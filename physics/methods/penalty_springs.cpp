@@ -90,7 +90,7 @@ bool takeRows(World::Impl& world, const Configuration& x, const PenaltyScheme& s
     report.constraintEvaluations += static_cast<std::int64_t>(set.items.size());
     for (std::size_t k = 0; k < set.items.size() && finite; ++k) {
       finite = takeRow(set, k, x, scheme, world);
-      if (!finite) nameCulprit(report, K::kWord, k, set.items[k].bodies[0]);
+      if (!finite) nameCulprit(report, K::kWord, k, moverOf(set.items[k], world.bodies));
     }
   });
   return finite;

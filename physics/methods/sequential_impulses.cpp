@@ -187,7 +187,7 @@ bool sweepKind(K& kind, World::Impl& world, Softness soft, Stage stage, StepRepo
       next = nextTotal<C>(row, a, set.tuned[k], soft, stage, follow, total);
     }
     if (!next.allFinite()) {
-      nameCulprit(report, K::kWord, k, set.items[k].bodies[0]);
+      nameCulprit(report, K::kWord, k, moverOf(set.items[k], world.bodies));
       return false;
     }
     give(set.items[k], response, next - total, moved);

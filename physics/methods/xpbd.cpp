@@ -93,7 +93,7 @@ bool projectKind(K& kind, Bodies& bodies, double dt, StepReport& report) {
     const bool finite = project(set, k, fresh, bodies, dt);
     if constexpr (C::kBodies == kMany) std::swap(fresh, set.scratch);
     if (!finite) {
-      nameCulprit(report, K::kWord, k, set.items[k].bodies[0]);
+      nameCulprit(report, K::kWord, k, moverOf(set.items[k], bodies));
       return false;
     }
   }

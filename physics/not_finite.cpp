@@ -1,0 +1,101 @@
+// Numbers that are not finite: whose they are, and the way back.
+#include "physics/not_finite.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/choose_scheme.h"
+#include "physics/effects/second_order.h"
+#include "physics/methods/nonlinear_gauss_seidel.h"
+
+namespace physics {
+namespace {
+
+bool isFinite(const World::Impl& w, BodyId i) {
+  const Pose& pose = w.bodies.pose[i];
+  const Velocity& velocity = w.bodies.velocity[i];
+  return std::isfinite(pose.x.sum() + pose.q.coeffs().sum() + velocity.v.sum() + velocity.w.sum() +
+                       w.loads[i].force.sum() + w.loads[i].torque.sum());
+}
+
+// Keeps the hardest push on one body; nothing is harder than one that is not finite.
+struct Hardest {
+  BodyId body;
+  double most = 0;
+
+  template <class Bodies>
+  bool beats(const Bodies& bodies, double size) {
+    if (!std::isfinite(most) || !(size > most || !std::isfinite(size))) return false;
+    if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) return false;
+    most = size;
+    return true;
+  }
+};
+
+double pushOf(const ContactPair& pair) {
+  double sum = 0;
+  for (int k = 0; k < pair.count; ++k) {
+    sum += std::abs(pair.points[k].normalTotal) + pair.points[k].frictionTotal.norm();
+  }
+  return sum;
+}
+
+void nameHardest(const World::Impl& w, StepReport& report) {
+  Hardest hardest{report.notFinite->body};
+  const auto name = [&](const char* kind, std::size_t k) {
+    nameCulprit(report, kind, k, hardest.body);
+  };
+  forEachKind(w.kinds, [&](const auto& kind) {
+    using K = std::decay_t<decltype(kind)>;
+    for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
+      const double size = kind.set.lambda[k].total.norm();
+      if (hardest.beats(kind.set.items[k].bodies, size)) name(K::kWord, k);
+    }
+  });
+  for (std::size_t k = 0; k < w.contacts.pairs.size(); ++k) {
+    const ContactPair& pair = w.contacts.pairs[k];
+    if (hardest.beats(std::array{pair.a, pair.b}, pushOf(pair))) name("contact", k);
+  }
+  for (std::size_t k = 0; k < w.softContacts.size(); ++k) {
+    const SoftContact& c = w.softContacts[k];
+    const double size = std::abs(c.normalTotal) + c.frictionTotal.norm();
+    if (hardest.beats(std::array{c.from, c.to, c.body}, size)) name("soft contact", k);
+  }
+}
+
+}  // namespace
+
+void checkFinite(const World::Impl& w, StepReport& report) {
+  const auto check = [&](BodyId i) {
+    if (!report.notFinite && !isFinite(w, i)) report.notFinite = {report.substeps, i, ""};
+  };
+  for (const BodyId i : w.bodies.active) check(i);
+  for (const BodyId i : w.loaded) check(i);
+  for (const auto& [body, velocity] : w.last.replaced) check(body);
+}
+
+void checkSolved(const World::Impl& w, StepReport& report) {
+  if (report.notFinite) return;
+  checkFinite(w, report);
+  if (report.notFinite) nameHardest(w, report);
+}
+
+void restore(World::Impl& w) {
+  Bodies& b = w.bodies;
+  for (const BodyId i : b.active) {
+    b.pose[i] = b.start[i] = w.last.pose[i];
+    b.velocity[i] = w.last.velocity[i];
+    forgetPast(b.second, i);
+  }
+  for (auto set = w.last.replaced.rbegin(); set != w.last.replaced.rend(); ++set) {
+    b.velocity[set->first] = set->second;
+  }
+  w.contacts.pairs.clear();
+  w.softContacts.clear();
+  undo(w.arms);
+  forEachKind(w.kinds, [](auto& kind) {
+    for (auto& lambda : kind.set.lambda) lambda = {};
+  });
+}
+
+}  // namespace physics
