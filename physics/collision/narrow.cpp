@@ -57,11 +57,20 @@ void touchPoints(const Solid& a, const Solid& b, const Vec3& n, const Vec3& onA,
   contacts.add(onA, onB, kPointTag);
 }
 
-// The point of a that is deepest along -n, with the plane that it is measured from.
-void touchDeepest(const Solid& a, const Solid& b, const Relative& pose, const Axis& axis,
+// Where the solids would part when moved apart along n: those points touch, `separation` apart.
+// Where they do not part, the point of a that is deepest along -n.
+void touchParting(const Solid& a, const Solid& b, const Relative& pose, const Axis& axis,
                   Contacts& contacts) {
-  const Vec3 onA = pose.R * support(a, -(pose.R.transpose() * axis.n)) + pose.t;
-  touchPoints(a, b, axis.n, onA, onA - axis.separation * axis.n, contacts);
+  const double away = 1e-2 * smallerSize(a, b) - axis.separation;
+  Relative apart = pose;
+  apart.t += away * axis.n;
+  const Distance d = coreDistance(a, b, apart);
+  Vec3 onA = pose.R * support(a, -(pose.R.transpose() * axis.n)) + pose.t, onB = onA;
+  if (!d.overlap) onA = d.onA - away * axis.n, onB = d.onB;
+  const Vec3 middle = 0.5 * (onA + onB);
+  const Vec3 half = 0.5 * axis.separation * axis.n;
+  touchPoints(a, b, axis.n, d.overlap ? onA : Vec3(middle + half),
+              d.overlap ? Vec3(onA - 2 * half) : Vec3(middle - half), contacts);
 }
 
 // A better start than `axis` among a grid of directions and the way from centre to centre.
@@ -109,15 +118,16 @@ bool isExact(const Solid& a, const Solid& b) {  // facets and edges are all ther
   return !curved && !tooManyEdges(a, b);
 }
 
-// Cores that overlap, or touch to rounding, and no facet or line holds the deepest point.
+// Cores that overlap, or touch to rounding. `contacts`: of a facet or line, which may not hold the
+// deepest point.
 double touchOverlapping(const Solid& a, const Solid& b, const Relative& pose, Axis axis,
                         Contacts& contacts) {
   const double tolerance = kFlat * smallerSize(a, b);
   Contacts refined;
   if (!isExact(a, b) && refine(a, b, pose, tolerance, axis, refined)) {
     contacts = refined;
-  } else if (contacts.count == 0) {
-    touchDeepest(a, b, pose, axis, contacts);
+  } else if (contacts.smallestGap() > axis.separation - a.rounding - b.rounding + tolerance) {
+    touchParting(a, b, pose, axis, contacts);
   }
   return axis.separation - a.rounding - b.rounding;
 }
@@ -150,6 +160,12 @@ double touchCores(const Solid& a, const Solid& b, const Relative& pose, double r
   return nearest.distance - radii;
 }
 
+// Over a plane, of the lowest point: the manifold has it to within its tolerance only.
+double heightOver(const Solid& a, const Solid& plane, const Relative& pose) {
+  const Vec3 low = support(a, -(pose.R.transpose() * plane.normal));
+  return plane.normal.dot(pose.R * low + pose.t) - plane.offset - a.rounding;
+}
+
 bool isRound(const Solid& s) { return s.kind <= Kind::capsule; }
 
 }  // namespace
@@ -179,7 +195,7 @@ double touch(const Solid& a, const Solid& b, const Relative& pose, double reach,
 double signedDistance(const Solid& a, const Solid& b, const Relative& pose) {
   if (a.kind > b.kind) return signedDistance(b, a, inverse(pose));
   Contacts contacts;
-  if (b.kind == Kind::plane) return a.kind == b.kind ? kInfinite : touchPlane(a, b, pose, contacts);
+  if (b.kind == Kind::plane) return a.kind == b.kind ? kInfinite : heightOver(a, b, pose);
   if (isRound(b)) return touchRound(a, b, pose, contacts);
   if (a.kind <= Kind::sphere) return touchPoint(a, b, pose, contacts);
   const double radii = a.rounding + b.rounding;
