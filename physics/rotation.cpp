@@ -58,19 +58,16 @@ SineCosine sineCosine(double angle) {
   // pi/2 in three parts (Cody and Waite): k times each of the first two is exact while |k| < 2^20.
   constexpr double kHalfPi1 = 1.57079632673412561417e+00, kHalfPi2 = 6.07710050630396597660e-11,
                    kHalfPi3 = 2.02226624879595063154e-21;
+  // Beyond that the turns are counted in doubles of 2 pi: a bounded angle, if not that one.
+  if (!(std::abs(angle) < 1e6)) angle = std::remainder(angle, 2 * kPi);
   const double k = std::nearbyint(angle * (2 / kPi));
   const double r = ((angle - k * kHalfPi1) - k * kHalfPi2) - k * kHalfPi3;
   const double s = sineReduced(r), c = cosineReduced(r);
-  switch (static_cast<long long>(k) & 3) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
-  }
+  const double quadrant = k - 4 * std::floor(k / 4);  // not a number stays none
+  if (quadrant == 0) return {s, c};
+  if (quadrant == 1) return {c, -s};
+  if (quadrant == 2) return {-s, -c};
+  return {-c, s};
 }
 
 double arcTangent(double y, double x) {

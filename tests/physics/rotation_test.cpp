@@ -33,6 +33,14 @@ TEST(SineCosine, IsExactToRoundingForManyTurns) { EXPECT_LT(worstSine(100), 2e-1
 
 TEST(SineCosine, IsExactToRoundingUpToAMillion) { EXPECT_LT(worstSine(1e6), 2e-16); }
 
+TEST(SineCosine, StaysOnTheUnitCircleHoweverLargeTheAngle) {
+  for (double angle = 1; angle < 1e308; angle *= 7) {
+    const auto [sine, cosine] = sineCosine(-angle);
+    EXPECT_NEAR(sine * sine + cosine * cosine, 1, 1e-14) << angle;
+  }
+  EXPECT_TRUE(std::isnan(sineCosine(std::numeric_limits<double>::infinity()).sine));
+}
+
 TEST(SineCosine, IsExactAtZero) {
   EXPECT_EQ(sineCosine(0).sine, 0);
   EXPECT_EQ(sineCosine(0).cosine, 1);
