@@ -11,11 +11,11 @@ bool finite(const Vec3& v) { return v.allFinite(); }
 
 template <class D>
 void checkBodies(const World::Impl& w, const D& def) {
-  for (const BodyId body : def.bodies) {
-    require(body >= 0 && body < w.bodies.size(), "no such body");
-    require(std::count(def.bodies.begin(), def.bodies.end(), body) == 1,
-            "a body cannot be joined to itself");
-  }
+  auto bodies = def.bodies;
+  std::sort(bodies.begin(), bodies.end());
+  require(bodies.front() >= 0 && bodies.back() < w.bodies.size(), "no such body");
+  require(std::adjacent_find(bodies.begin(), bodies.end()) == bodies.end(),
+          "a body cannot be joined to itself");
   if constexpr (requires { def.at; }) require(finite(def.at), "a joint's place must be finite");
   if constexpr (requires { def.anchors[0].x(); }) {
     require(finite(def.anchors[0]) && finite(def.anchors[1]), "anchors must be finite");

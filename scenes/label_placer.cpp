@@ -19,7 +19,9 @@ constexpr int kOutside = 8, kOverLabel = 6, kOverStroke = 2;  // what covering c
 
 // Distance from a rectangle to the nearest point of a segment, by samples a few pixels apart.
 float distanceTo(const Pixel& low, const Pixel& high, const Pixel& from, const Pixel& to) {
-  const int samples = 2 + static_cast<int>((to - from).norm() / 3);
+  // Far-away points make long lines: no more samples than a picture has pixels to tell apart.
+  const int samples =
+      2 + static_cast<int>(std::min(1e3, static_cast<double>((to - from).norm()) / 3));
   float least = std::numeric_limits<float>::infinity();
   for (int i = 0; i <= samples; ++i) {
     const Pixel p = from + (to - from) * (static_cast<float>(i) / static_cast<float>(samples));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "physics/make/soft.h"
 #include "scenes/table_reader.h"
@@ -92,9 +93,10 @@ physics::BodyId bodyNamed(const Value& value, const Spot& spot) {
 }
 
 void readBodies(const Value& value, const Spot& spot, std::span<physics::BodyId> out) {
+  std::set<physics::BodyId> known;
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i] = bodyNamed(value.items[i], spot);
-    if (std::find(out.begin(), out.begin() + i, out[i]) == out.begin() + i) continue;
+    if (known.insert(out[i]).second) continue;
     fail(spot.context, value.place,
          fmt::format("{}: expected {}different bodies, got '{}' twice", spot.key,
                      out.size() == 2 ? "two " : "", value.items[i].text));

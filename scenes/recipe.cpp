@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "physics/make/matter.h"
+
 namespace scenes {
 namespace {
 
@@ -73,6 +75,11 @@ void Recipe::add(const TableReader& reader, Step step) {
     step(trial_);
   } catch (const std::invalid_argument& error) {
     reader.failHere(error.what());
+  }
+  const int bodies = trial_.world.bodyCount() - 1;
+  if (bodies > physics::kMostBodies) {
+    reader.failHere(fmt::format("expected at most {} bodies in a scene, got {} with these",
+                                physics::kMostBodies, bodies));
   }
   content_.steps.push_back(std::move(step));
   content_.origins.push_back({reader.key(), reader.table().place});

@@ -50,7 +50,8 @@ void readWords(TableReader& root, Recipe& recipe, std::span<const Word> words) {
   }
 }
 
-void checkExpectedBodies(const Context& context, const Scene& scene, const Built& trial) {
+void checkExpectedBodies(const TableReader& root, const Scene& scene, const Built& trial) {
+  const Context& context = root.context();
   const auto known = [&](const std::string& pattern) {
     if (trial.ids.contains(pattern)) return true;
     for (const std::string& name : trial.names) {
@@ -65,8 +66,9 @@ void checkExpectedBodies(const Context& context, const Scene& scene, const Built
                      didYouMean(expectation.body, trial.names)));
   }
   if (!known(scene.camera.fit)) {
-    throw InputError(fmt::format("{}: camera.fit: no body '{}'{}", context.path, scene.camera.fit,
-                                 didYouMean(scene.camera.fit, trial.names)));
+    fail(context, root.table().find("camera")->find("fit")->place,
+         fmt::format("camera.fit: no body '{}'{}", scene.camera.fit,
+                     didYouMean(scene.camera.fit, trial.names)));
   }
 }
 
@@ -125,7 +127,7 @@ Scene parseScene(const std::string& text, const std::string& path,
   Recipe recipe(scene, context);
   readWords(root, recipe, bodyWords());
   readWords(root, recipe, constraintWords());
-  checkExpectedBodies(context, scene, recipe.trial());
+  checkExpectedBodies(root, scene, recipe.trial());
   scene.effects = effectsOf(tree, scene);
   Scene::Content content = recipe.take();
   content.tree = std::move(tree);

@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "scenes/value.h"
 
@@ -56,9 +57,57 @@ Value convert(const toml::node& node) {
   return out;
 }
 
+// Every part of a dotted key is a table in a table, which toml++ and convert() walk by recursion.
+constexpr int kMostParts = 16;
+
+// The end of the string that begins at `at`: behind its closing quotes, or the end of the text.
+std::size_t endOfString(const std::string& text, std::size_t at) {
+  const char quote = text[at];
+  const std::size_t quotes = text.compare(at, 3, std::string(3, quote)) == 0 ? 3 : 1;
+  for (std::size_t i = at + quotes; i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (text.compare(i, quotes, std::string(quotes, quote)) == 0) {
+      return i + quotes;
+    } else if (text[i] == '\n' && quotes == 1) {
+      return i;
+    }
+  }
+  return text.size();
+}
+
+void checkKeys(const std::string& text, const std::string& path) {
+  int parts = 1, line = 1;
+  std::size_t lineStart = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      const std::size_t end = endOfString(text, i);
+      for (; i < end; ++i) {
+        if (text[i] == '\n') ++line, lineStart = i + 1;
+      }
+      continue;
+    }
+    if (c == '#') {
+      while (i < text.size() && text[i] != '\n') ++i;
+      continue;
+    }
+    if (c == '\n') ++line, lineStart = i + 1;
+    const bool inKey = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' ||
+                       c == ' ' || c == '\t';
+    if (c != '.' && !inKey) parts = 1;
+    if (c == '.' && ++parts > kMostParts) {
+      throw InputError(fmt::format("{}:{}:{}: expected a key of at most {} parts", path, line,
+                                   i - lineStart + 1, kMostParts));
+    }
+    ++i;
+  }
+}
+
 }  // namespace
 
 Value parseToml(const std::string& text, const std::string& path) {
+  checkKeys(text, path);
   try {
     return convert(toml::parse(text, path));
   } catch (const toml::parse_error& error) {

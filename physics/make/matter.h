@@ -15,7 +15,7 @@ namespace physics {
 // Shape, std::optional<Friction>, std::vector of these, and a struct that has `fields` itself.
 
 inline constexpr double kMorePositive = std::numeric_limits<double>::min();  // a bound: > 0
-inline constexpr int kMostBodies = 200000;                                   // of one generator
+inline constexpr int kMostBodies = 100000;  // of a generator, and of a scene: some 200 MB
 inline constexpr double kWaterDensity = 1000;                                // kg/m^3, the default
 
 // Mass or density of each body, and its friction.

@@ -79,11 +79,18 @@ TEST(Generator, CallsTheLastOfAChainItsEnd) {
 
 TEST(Generator, RefusesMoreBodiesThanItMayMake) {
   EXPECT_EQ(errorOf("[[stack]]\ncount = 1000000\n"),
-            "test.toml:2:9: stack.count: expected an integer in [1, 200000], got 1000000");
+            "test.toml:2:9: stack.count: expected an integer in [1, 100000], got 1000000");
   EXPECT_EQ(errorOf("[[pyramid]]\nbase = 2000\n"),
-            "test.toml:1:1: pyramid: expected at most 200000 bodies, got 2001000");
+            "test.toml:1:1: pyramid: expected at most 100000 bodies, got 2001000");
   EXPECT_EQ(errorOf("[[grid]]\ncounts = [1000, 1000, 1000]\nshapes = [{ point = {} }]\nmass = 1\n"),
-            "test.toml:1:1: grid: expected at most 200000 bodies, got 1000000000");
+            "test.toml:1:1: grid: expected at most 100000 bodies, got 1000000000");
+}
+
+TEST(Generator, RefusesMoreBodiesThanASceneMayHave) {
+  const std::string half = "count = 60000\nshape = { point = {} }\nmass = 1\n";
+  EXPECT_EQ(
+      errorOf("[[stack]]\n" + half + "[[stack]]\nname = \"b\"\n" + half),
+      "test.toml:5:1: stack: expected at most 100000 bodies in a scene, got 120000 with these");
 }
 
 TEST(Generator, RefusesAChainWhoseLinksDoNotFitItsEnds) {

@@ -98,7 +98,7 @@ TEST(SceneSoft, RefusesWhatMakesNoSense) {
   const auto refuses = [](const std::string& text, const std::string& message) {
     EXPECT_EQ(errorOf(text), "test.toml:" + message);
   };
-  refuses(kRope + "count = 1\n", "4:9: rope.count: expected an integer in [2, 200000], got 1");
+  refuses(kRope + "count = 1\n", "4:9: rope.count: expected an integer in [2, 100000], got 1");
   refuses(kRope + "length = -1\n", "4:10: rope.length: expected a number > 0 [m], got -1");
   refuses(kRope + "length = 0.5\n",
           "1:1: rope: expected a length of at least |to - from| = 1.000000 m, got 0.500000 m");
@@ -124,9 +124,9 @@ TEST(SceneSoft, RefusesClothsThatMakeNoSense) {
   refuses("[[cloth]]\nsize = [1, 0]\nnodes = [4, 3]\n",
           "2:12: cloth.size: expected a number > 0 [m], got 0");
   refuses("[[cloth]]\nsize = [1, 1]\nnodes = [1, 3]\n",
-          "3:10: cloth.nodes: expected an integer in [2, 200000], got 1");
+          "3:10: cloth.nodes: expected an integer in [2, 100000], got 1");
   refuses("[[cloth]]\nsize = [1, 1]\nnodes = [1000, 1000]\n",
-          "1:1: cloth: expected at most 200000 bodies, got 1000000");
+          "1:1: cloth: expected at most 100000 bodies, got 1000000");
   refuses(kCloth + "v = [2, 0, 0]\n", "1:1: cloth: expected 'u' and 'v' not to be parallel");
   refuses(kCloth + "edges = \"springs\"\nstiffness = -1\n",
           "5:13: cloth.stiffness: expected a number >= 0 [N/m], got -1");

@@ -6,6 +6,28 @@
 namespace scenes {
 namespace {
 
+std::string repeated(const std::string& piece, int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += piece;
+  return text;
+}
+
+TEST(SceneText, RefusesKeysOfTooManyParts) {
+  const std::string refusal = "expected a key of at most 16 parts";
+  EXPECT_EQ(errorOf("title = \"a\"\n" + repeated("a.", 100000) + "b = 1\n"),
+            "test.toml:2:32: " + refusal);
+  EXPECT_EQ(errorOf("[" + repeated("a.", 100000) + "b]\n"), "test.toml:1:33: " + refusal);
+  EXPECT_EQ(errorOf("x = { " + repeated("\"a\" . ", 20) + "b = 1 }\n"),
+            "test.toml:1:97: " + refusal);
+}
+
+TEST(SceneText, DotsInStringsAndCommentsAndNumbersAreNoKeys) {
+  const std::string dots = repeated("a.b ", 50);
+  EXPECT_EQ(errorOf("title = \"" + dots + "\\\" \" # " + dots + "\ndescription = \"\"\"\n" + dots +
+                    "\"\"\"\n[camera]\ndirection = [1.0, 2.0, 3.0]\n"),
+            "no error");
+}
+
 TEST(SceneFile, ThatIsNotTomlIsReportedWhereItStopsToBe) {
   EXPECT_TRUE(
       errorOf("title = \"a\"\nduration = = 3\n").starts_with("test.toml:2:12: expected TOML:"));

@@ -1,0 +1,17 @@
+// libFuzzer's entry: any bytes are a scene that is run, or are refused at their place.
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/fuzz/try_scene.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size), path = "fuzz.toml";
+  const tests::Tried tried = tests::tryScene(text, path);
+  const bool asset = tried.told.find("assets/") != std::string::npos;  // has a place of its own
+  if (tried.code == app::ExitCode::kBadInput && !asset && !tests::hasPlace(tried.told, path)) {
+    std::fprintf(stderr, "without a place: %s\n", tried.told.c_str());
+    std::abort();
+  }
+  return 0;
+}
