@@ -79,12 +79,13 @@ ExitCode checkGoldens(const GoldenOptions& options) {
     const fs::path folder = goldenFolder(options, scene.name);
     const GoldenRecord record = readGoldenRecord(folder);
     if (scene.golden.frames.empty()) say(fmt::format("none  {:<24} has no golden frames\n", name));
-    for (const GoldenFrame& now : drawGoldenFrames(scene, options.common.progressMode())) {
+    const std::vector<GoldenFrame> drawn = drawGoldenFrames(scene, options.common.progressMode());
+    if (interrupted()) return ExitCode::kInterrupted;
+    for (const GoldenFrame& now : drawn) {
       pairs.push_back(compareFrame(options, scene, record, now, folder));
       passed = passed && pairs.back().passed;
       if (!options.common.quiet) say(describePair(pairs.back()));
     }
-    if (interrupted()) return ExitCode::kInterrupted;
     flushOutput();
   }
   if (passed) return ExitCode::kDone;
@@ -108,7 +109,9 @@ void updateScene(const GoldenOptions& options, const std::string& name) {
   const GoldenRecord before = readGoldenRecord(folder);
   GoldenRecord after{options.reason, {}};
   bool changed = false;
-  for (const GoldenFrame& now : drawGoldenFrames(scene, options.common.progressMode())) {
+  const std::vector<GoldenFrame> drawn = drawGoldenFrames(scene, options.common.progressMode());
+  if (interrupted()) return;
+  for (const GoldenFrame& now : drawn) {
     after.frames[now.frame] = now.hashes;
     const fs::path file = goldenImage(folder, now.frame);
     const render::Image image = readGolden(file);
@@ -123,7 +126,7 @@ void updateScene(const GoldenOptions& options, const std::string& name) {
     makeFolder(folder);
     render::writePng(now.image, file);
   }
-  if (interrupted() || (!changed && before.frames.size() == after.frames.size())) return;
+  if (!changed && before.frames.size() == after.frames.size()) return;
   removeStale(before, after, folder);
   writeGoldenRecord(after, folder);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "app/interrupt.h"
 #include "app/open_renderer.h"
 #include "app/output_file.h"
 #include "app/play.h"
@@ -68,6 +69,7 @@ std::vector<GoldenFrame> drawGoldenFrames(const scenes::Scene& scene, ProgressMo
   // The camera fits the motion up to the last golden frame: early frames must not cost the whole
   // run.
   const scenes::MotionBounds bounds = findBounds(scene, frames, progress);
+  if (interrupted()) return {};  // the camera has not seen it all
   return GoldenDrawing(scene, bounds).run(frames);
 }
 

@@ -171,9 +171,9 @@ ExitCode renderScene(const RenderOptions& options) {
   }
   if (!options.common.quiet) say(summary(scene, job, result));
   if (options.common.hash) {
+    const std::vector<std::string>& hashes = result.record.stateHashes;
     const bool done = result.end.code == ExitCode::kDone;  // else: of the last frame there is
-    const int last = done ? job.frames.back() : result.end.frames - 1;
-    say(result.record.stateHashes.at(last) + "\n");
+    say((done ? hashes.at(job.frames.back()) : hashes.back()) + "\n");
   }
   if (!result.end.problem.empty()) note("dbd: " + result.end.problem + "\n");
   return result.end.code;

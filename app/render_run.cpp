@@ -65,13 +65,11 @@ class Drawing {
 
   void run(RenderResult& result) {
     const Stopwatch watch;
-    result.end = play(simulation_, job_.frames.back() + 1,
-                      [&](double stepSeconds) { visit(stepSeconds, result); });
-    if (result.end.code == ExitCode::kInterrupted) {
-      pipeline_.abandon();
-    } else {
-      pipeline_.finish();
-      progress_.finish();
+    try {
+      playAndDraw(result);
+    } catch (const CheckFailed& error) {
+      result.end.code = ExitCode::kCheckFailed;
+      result.end.problem = simulation_.scene().name + ": " + error.what();
     }
     const bool whole = result.end.frames == simulation_.scene().frameCount();
     if (whole) result.record.expectations = describeVerdicts(checker_.verdicts());
@@ -80,6 +78,14 @@ class Drawing {
   }
 
  private:
+  void playAndDraw(RenderResult& result) {
+    result.end = play(simulation_, job_.frames.back() + 1,
+                      [&](double stepSeconds) { visit(stepSeconds, result); });
+    if (result.end.code == ExitCode::kInterrupted) return pipeline_.abandon();
+    pipeline_.finish();
+    progress_.finish();
+  }
+
   void visit(double stepSeconds, RenderResult& result) {
     simulateSeconds_ += stepSeconds;
     checker_.observe(simulation_);

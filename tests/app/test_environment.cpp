@@ -7,6 +7,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kSheet = R"(title = "A fall"
+claim = "Things fall."
+[[panel]]
+name = "fall"
+scene = "./drop.toml"
+frames = [0, 10]
+)";
+constexpr const char* kCase = R"(title = "A ball falls"
+about = "How far it falls."
+scene = "./drop.toml"
+fps = 10
+duration = 0.3
+[[quantity]]
+metric = "y"
+body = "ball"
+law = [0.6, 0, -4.905]
+[sweep]
+methods = ["paper"]
+steps = [1, 2, 4]
+)";
+
 class Environment : public Program {
  protected:
   void expectTold(const Outcome& outcome, const std::string& told) const {
@@ -35,6 +56,29 @@ TEST_F(Environment, AClosedStandardOutputIsTold) { expectTold(run("list >&-"), "
 TEST_F(Environment, AClosedPipeIsTold) {
   const Outcome outcome = run("simulate drop.toml --set duration=60 --trajectory - | head -1");
   EXPECT_NE(outcome.errors.find("Broken pipe"), std::string::npos) << outcome.errors;
+}
+
+// As in `dbd list | head -1`: the program ends by itself, and says why.
+TEST_F(Environment, AClosedPipeEndsEveryCommandThatWritesToIt) {
+  for (const std::string command : {"simulate drop.toml --set duration=60 --trajectory -",
+                                    "simulate drop.toml --metrics - --set duration=60"}) {
+    const Outcome outcome = run(command + " ; echo $? > code ; } | { head -1");
+    EXPECT_EQ(readBytes(folder / "code"), "4\n") << command << "\n" << outcome.errors;
+  }
+}
+
+TEST_F(Environment, FiguresAndStudiesThatCannotBeWrittenAreTold) {
+  writeText(folder / "sheet.toml", kSheet);
+  writeText(folder / "case.toml", kCase);
+  const std::string figures = "figures sheet.toml --quality draft --width 320 --quiet -o ";
+  const std::string study = "study accuracy case.toml --progress none -o ";
+  for (const std::string& command : {figures, study}) {
+    expectTold(run(command + "/proc/out"), "/proc/out");
+    expectTold(run(command + "run", "ulimit -f 1;"), "File too large");
+    expectNoHalfFile();
+    EXPECT_EQ(run(command + "run").code, 0);
+    fs::remove_all(folder / "run");
+  }
 }
 
 TEST_F(Environment, AFileInThePlaceOfTheFolderIsTold) {
