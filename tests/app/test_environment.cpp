@@ -74,7 +74,7 @@ TEST_F(Environment, FiguresAndStudiesThatCannotBeWrittenAreTold) {
   const std::string study = "study accuracy case.toml --progress none -o ";
   for (const std::string& command : {figures, study}) {
     expectTold(run(command + "/proc/out"), "/proc/out");
-    expectTold(run(command + "run", "ulimit -f 1;"), "File too large");
+    expectTold(run(command + "run", "ulimit -f 1;"), "cannot write");
     expectNoHalfFile();
     EXPECT_EQ(run(command + "run").code, 0);
     fs::remove_all(folder / "run");

@@ -18,7 +18,7 @@ TEST(SceneText, RefusesKeysOfTooManyParts) {
             "test.toml:2:32: " + refusal);
   EXPECT_EQ(errorOf("[" + repeated("a.", 100000) + "b]\n"), "test.toml:1:33: " + refusal);
   EXPECT_EQ(errorOf("x = { " + repeated("\"a\" . ", 20) + "b = 1 }\n"),
-            "test.toml:1:97: " + refusal);
+            "test.toml:1:101: " + refusal);
 }
 
 TEST(SceneText, DotsInStringsAndCommentsAndNumbersAreNoKeys) {
