@@ -18,11 +18,15 @@ struct BroadPhase::Impl {
   std::vector<Item> items;
   fcl::DynamicAABBTreeCollisionManagerd large, small;
   std::vector<fcl::CollisionObjectd*> movedLarge, movedSmall;
+  static constexpr double kFurthest = 1e90;  // m
 
+  // FCL multiplies sides, and chooses between volumes: beyond kFurthest it would choose none.
   void place(Item& item, const Bounds& bounds) const {
-    item.box->side = bounds.high - bounds.low;
+    const Vec3 low = bounds.low.cwiseMax(-kFurthest).cwiseMin(kFurthest);
+    const Vec3 high = bounds.high.cwiseMax(-kFurthest).cwiseMin(kFurthest);
+    item.box->side = high - low;
     item.box->computeLocalAABB();
-    item.object->setTranslation(0.5 * (bounds.low + bounds.high));
+    item.object->setTranslation(0.5 * (low + high));
     item.object->computeAABB();
   }
 };
