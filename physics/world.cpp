@@ -3,6 +3,7 @@
 #include "physics/world.h"
 
 #include "physics/choose_scheme.h"
+#include "physics/effects/energy_bound.h"
 #include "physics/effects/restitution.h"
 #include "physics/effects/second_order.h"
 #include "physics/methods/direct.h"
@@ -130,6 +131,7 @@ void finish(World::Impl& w, double h, StepReport& report) {
     projectVelocities(w);
   } else {
     finishVelocities(w.bodies, h);  // (43)-(46)
+    report.bounded += boundEnergy(w, h);
   }
   std::vector<bool> jumped;
   if (restitution > 0) {
@@ -175,6 +177,7 @@ void substep(World::Impl& w, int k, double h, StepReport& report) {
   const bool isStatic = w.settings.stepping == Stepping::kStatic;
   if (isStatic) bringToRest(w.bodies);
   if (isRival(w.settings.method)) return substepOfRival(w, k, h, report);
+  noteKineticEnergy(w);
   isSecondOrder(w.settings) ? displaceBySchemes(w, k, h, report) : displaceAll(w, k, h, report);
   if (!goesOn(w, report)) return;
   finish(w, h, report);

@@ -44,6 +44,8 @@ struct World::Impl {
   std::vector<ContactPair> contactsBefore;  // as the substep found them; second order only
   ImpulseSystem impulses;                   // sequential impulses only
   PenaltySystem penalty;                    // penalty forces only
+  std::vector<double> kineticBefore;        // of bodies at the start of the substep [J]; empty
+                                            // where energy needs no bound
   std::vector<Velocity> velocityBefore;     // free of contacts, restitution only
   std::vector<Pose> ahead;     // scratch: poses at the end of the step, as far as now is known
   Islands joined;              // by constraints; empty: not known yet

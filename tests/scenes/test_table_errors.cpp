@@ -16,7 +16,8 @@ TEST(SceneText, RefusesKeysOfTooManyParts) {
   const std::string refusal = "expected a key of at most 16 parts";
   EXPECT_EQ(errorOf("title = \"a\"\n" + repeated("a.", 100000) + "b = 1\n"),
             "test.toml:2:32: " + refusal);
-  EXPECT_EQ(errorOf("[" + repeated("a.", 100000) + "b]\n"), "test.toml:1:33: " + refusal);
+  EXPECT_EQ(errorOf(std::string("[").append(repeated("a.", 100000)).append("b]\n")),
+            "test.toml:1:33: " + refusal);
   EXPECT_EQ(errorOf("x = { " + repeated("\"a\" . ", 20) + "b = 1 }\n"),
             "test.toml:1:101: " + refusal);
 }

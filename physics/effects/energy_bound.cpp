@@ -1,0 +1,171 @@
+// The bound on the energy of joined bodies in contact.
+#include "physics/effects/energy_bound.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "physics/choose_scheme.h"
+#include "physics/effects/second_order.h"
+#include "physics/islands.h"
+#include "physics/world_impl.h"
+
+namespace physics {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of the kinetic energy: no gain
+
+// One island: what it weighs, how it moves, and what it may have of energy.
+struct Whole {
+  bool jointed = false, pushed = false, driven = false;
+  double mass = 0, kinetic = 0, allowed = 0;
+  Vec3 centre = Vec3::Zero(), momentum = Vec3::Zero(), spin = Vec3::Zero();
+  Mat3 inertia = Mat3::Zero();
+  Vec3 v = Vec3::Zero(), w = Vec3::Zero();  // the rigid part, at the centre
+  double inner = 1, outer = 1;              // factors of the relative and of the rigid part
+};
+
+bool applies(const World::Impl& w) {
+  if (!w.touches || isSecondOrder(w.settings) || w.settings.stepping == Stepping::kStatic) {
+    return false;
+  }
+  bool any = false;
+  forEachKind(w.kinds, [&](const auto& kind) { any = any || !kind.set.active.empty(); });
+  return any;
+}
+
+double kineticEnergy(const Bodies& b, BodyId i) {
+  if (b.motion[i] != Motion::kDynamic) return 0;
+  const Velocity& velocity = b.velocity[i];
+  return 0.5 * b.mass[i] * velocity.v.squaredNorm() +
+         0.5 * velocity.w.dot(angularMomentum(b, i, velocity.w));
+}
+
+// What joints and this substep's contacts join.
+Islands findIslands(World::Impl& w) {
+  Islands islands = jointIslands(w);
+  for (const ContactPair& pair : w.contacts.pairs) {
+    if (!pair.given.isZero(0)) join(w.bodies, islands, pair.a, pair.b);
+  }
+  settle(islands, w.bodies.active);
+  return islands;
+}
+
+// Who may gain: islands with forces, motors, moved bodies or loads; and who cannot: those without a
+// joint, or untouched.
+void mark(World::Impl& w, const Islands& islands, std::vector<Whole>& wholes) {
+  forEachKind(w.kinds, [&](const auto& kind) {
+    using C = typename std::decay_t<decltype(kind)>::Item;
+    for (const int k : kind.set.active) {
+      for (const BodyId body : kind.set.items[k].bodies) {
+        Whole& whole = wholes[islands[body]];
+        whole.jointed = true;
+        whole.driven = whole.driven || !canStand<C>();
+      }
+    }
+  });
+  for (const ContactPair& pair : w.contacts.pairs) {
+    if (pair.given.isZero(0)) continue;
+    for (const BodyId body : {pair.a, pair.b}) {
+      wholes[islands[body]].pushed = true;
+      if (w.bodies.motion[body] != Motion::kKinematic) continue;
+      wholes[islands[pair.a]].driven = wholes[islands[pair.b]].driven = true;
+    }
+  }
+  for (const BodyId body : w.loaded) wholes[islands[body]].driven = true;
+  for (const BodyId i : w.bodies.active) {
+    if (w.bodies.motion[i] == Motion::kKinematic) wholes[islands[i]].driven = true;
+  }
+}
+
+void sumUp(const World::Impl& w, const Islands& islands, double h, std::vector<Whole>& wholes) {
+  const Bodies& b = w.bodies;
+  const Vec3 gravity = w.settings.gravity.value_or(Vec3::Zero());
+  for (const BodyId i : b.active) {
+    Whole& whole = wholes[islands[i]];
+    whole.mass += b.mass[i];
+    whole.centre += b.mass[i] * b.pose[i].x;
+    whole.momentum += b.mass[i] * b.velocity[i].v;
+    whole.kinetic += kineticEnergy(b, i);
+    whole.allowed += w.kineticBefore[i] + h * b.mass[i] * gravity.dot(b.velocity[i].v);
+  }
+}
+
+bool gains(const Whole& whole) {
+  return whole.jointed && whole.pushed && !whole.driven &&
+         whole.kinetic - whole.allowed > kRounding * whole.kinetic;
+}
+
+// The rigid motion of the same momenta; none about an axis that nothing is away from.
+void findRigidPart(const World::Impl& w, const Islands& islands, BodyId root, Whole& whole) {
+  const Bodies& b = w.bodies;
+  whole.centre /= whole.mass;
+  whole.v = whole.momentum / whole.mass;
+  for (const BodyId i : b.active) {
+    if (islands[i] != root) continue;
+    const Vec3 arm = b.pose[i].x - whole.centre;
+    const Mat3 rotation = b.pose[i].q.toRotationMatrix();
+    whole.inertia += b.mass[i] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose()) +
+                     rotation * b.inertia[i].asDiagonal() * rotation.transpose();
+    whole.spin += b.mass[i] * arm.cross(b.velocity[i].v) + angularMomentum(b, i, b.velocity[i].w);
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(whole.inertia);
+  const double least = 1e-12 * axes.eigenvalues()[2];
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = axes.eigenvectors().col(k);
+    if (axes.eigenvalues()[k] > least) {
+      whole.w += axis.dot(whole.spin) / axes.eigenvalues()[k] * axis;
+    }
+  }
+}
+
+// s of K_rigid + s^2 (K - K_rigid) = allowed, else the rigid part alone as far as is allowed.
+void findFactors(Whole& whole) {
+  const double rigid =
+      0.5 * whole.mass * whole.v.squaredNorm() + 0.5 * whole.w.dot(whole.inertia * whole.w);
+  const double room = whole.allowed - rigid;
+  if (room >= 0) {
+    whole.inner = std::sqrt(room / (whole.kinetic - rigid));
+  } else {
+    whole.inner = 0;
+    whole.outer = std::sqrt(std::max(whole.allowed, 0.0) / rigid);
+  }
+}
+
+void scale(Bodies& b, BodyId i, const Whole& whole) {
+  const Vec3 v = whole.v + whole.w.cross(b.pose[i].x - whole.centre);
+  Velocity& velocity = b.velocity[i];
+  velocity.v = whole.outer * v + whole.inner * (velocity.v - v);
+  if (b.inverseInertia[i].isZero(0)) return;
+  velocity.w = whole.outer * whole.w + whole.inner * (velocity.w - whole.w);
+}
+
+}  // namespace
+
+void noteKineticEnergy(World::Impl& w) {
+  w.kineticBefore.clear();
+  if (!applies(w)) return;
+  w.kineticBefore.resize(w.bodies.pose.size());
+  for (const BodyId i : w.bodies.active) w.kineticBefore[i] = kineticEnergy(w.bodies, i);
+}
+
+int boundEnergy(World::Impl& w, double h) {
+  if (w.kineticBefore.empty()) return 0;
+  const Islands islands = findIslands(w);
+  std::vector<Whole> wholes(islands.size());
+  mark(w, islands, wholes);
+  sumUp(w, islands, h, wholes);
+  int bounded = 0;
+  for (const BodyId i : w.bodies.active) {
+    if (islands[i] != i || !gains(wholes[i])) continue;
+    findRigidPart(w, islands, i, wholes[i]);
+    findFactors(wholes[i]);
+    ++bounded;
+  }
+  if (bounded == 0) return 0;
+  for (const BodyId i : w.bodies.active) {
+    if (gains(wholes[islands[i]])) scale(w.bodies, i, wholes[islands[i]]);
+  }
+  return bounded;
+}
+
+}  // namespace physics

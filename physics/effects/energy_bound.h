@@ -1,0 +1,20 @@
+// A substep of joined bodies in contact gains no energy. Backward Euler's own steps obey
+//   K' - K <= h sum m g.v'
+// where its constraints hold at both ends; sweeps that leave errors behind, which the next substep
+// takes for motion, do not. Where an island has gained, its motion relative to its rigid part is
+// scaled, v <- V + s (v - V) with V of the same linear and angular momentum: both are kept, joints
+// that hold go on holding. What static bodies gave is scaled as well where that does not suffice.
+// Islands with forces, motors or loads of their own are left alone: those may do work.
+#pragma once
+
+#include "physics/world.h"
+
+namespace physics {
+
+// Asks for a kinetic energy at the start of the substep, where joined bodies may be in contact.
+void noteKineticEnergy(World::Impl& world);
+
+// After the velocities, before restitution. Returns how many islands were held back.
+int boundEnergy(World::Impl& world, double h);
+
+}  // namespace physics
