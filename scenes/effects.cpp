@@ -133,6 +133,7 @@ void fillBroadPhase(const Survey& s, Effect& e) {
 void fillContact(const Survey& s, Effect& e) {
   fillBroadPhase(s, e);
   e.without = {"contact.enabled=false"};
+  e.stays.clear();
 }
 
 void fillSoftContact(const Survey& s, Effect& e) {

@@ -27,7 +27,7 @@ position = [0, 0.25, 0]
 [[expect]]
 metric = "height"
 body = "box"
-at_least = -0.01
+at_least = 0.2
 )";
 
 class StudyEffects : public Program {

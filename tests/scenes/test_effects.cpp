@@ -13,7 +13,9 @@ namespace {
 constexpr const char* kBall = "[[body]]\nname = \"ball\"\nshape = { sphere = { radius = 1 } }\n";
 constexpr const char* kBox =
     "[[body]]\nname = \"box\"\nshape = { box = { size = [1, 2, 3] } }\nposition = [9, 0, 0]\n";
-constexpr const char* kPoint = "[[body]]\nname = \"point\"\nshape = { point = {} }\n";
+constexpr const char* kOtherPoint =
+    "[[body]]\nname = \"other\"\nshape = { point = {} }\nmass = 1\n";
+constexpr const char* kPoint = "[[body]]\nname = \"point\"\nshape = { point = {} }\nmass = 1\n";
 constexpr const char* kFixed = "[[body]]\nshape = { sphere = { radius = 1 } }\nfixed = true\n";
 constexpr const char* kJoint = "[[ball_socket]]\nbodies = [\"ball\", \"box\"]\nat = [4, 0, 0]\n";
 
@@ -84,7 +86,7 @@ TEST(Effects, NothingOfContactIsOnWhereNothingCanTouch) {
     expectOff(effect(name, "[contact]\nenabled = false\n" + kTwo), false,
               "test.toml:2: contact.enabled = false");
   }
-  expectOff(effect("contact", std::string("[contact]\n") + kPoint + kPoint), true,
+  expectOff(effect("contact", std::string("[contact]\n") + kPoint + kOtherPoint), true,
             "no two bodies can touch: all are points");
   expectOff(effect("broad_phase", "[contact]\n" + kTwo + kJoint), true,
             "no two bodies can touch: all pairs are joined or fixed");

@@ -41,7 +41,7 @@ TEST(LeftOut, WrongValuesAreReportedAtTheirPlace) {
   EXPECT_EQ(errorOf("[sleep]\ntimes = 1\n"),
             "test.toml:2:1: sleep: unknown key 'times'; did you mean 'time'?");
   EXPECT_EQ(errorOf("[simulation]\nlocal_tolerance = 0\n"),
-            "test.toml:2:19: simulation.local_tolerance: expected a number > 0, got 0");
+            "test.toml:2:19: simulation.local_tolerance: expected a number > 0 [m], got 0");
 }
 
 TEST(LeftOut, MetricsCountTheBodiesThatSleep) {
