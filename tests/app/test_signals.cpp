@@ -122,8 +122,8 @@ TEST_F(Signals, GoldenImagesAreNotJudgedOrReplacedFromHalfAMotion) {
   std::string text = readBytes(folder / "drop.toml");
   text.replace(text.find("[camera]"), text.find("[golden]") - text.find("[camera]"),
                "[camera]\ndirection = [0, -0.2, -1]\n");
-  text.replace(text.find("duration = 0.3"), 14, "duration = 3000.3");
-  text.replace(text.find("[0, 6]"), 6, "[0, 150000]");
+  text.replace(text.find("duration = 0.3"), 14, "duration = 30000.3");
+  text.replace(text.find("[0, 6]"), 6, "[0, 1500000]");
   writeText(folder / "long.toml", text);
   for (const char* command : {"golden check long.toml --goldens g -o out",
                               "golden update long.toml --goldens g --reason r"}) {
