@@ -16,9 +16,7 @@ void findIslands(World::Impl& w) {
   Islands& island = w.stepper.island;
   const Islands& joined = jointIslands(w);
   for (const BodyId i : w.bodies.active) island[i] = joined[i];
-  for (const ContactPair& pair : w.contacts.pairs) {
-    if (!pair.given.isZero(0)) join(w.bodies, island, pair.a, pair.b);
-  }
+  joinPushed(w, island);
   for (const Meeting& meeting : w.stepper.lost) join(w.bodies, island, meeting.a, meeting.b);
   for (const SoftContact& c : w.softContacts) {
     if (c.normalTotal == 0) continue;

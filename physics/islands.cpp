@@ -41,6 +41,12 @@ const Islands& jointIslands(World::Impl& w) {
   return joined;
 }
 
+void joinPushed(const World::Impl& w, Islands& islands) {
+  for (const ContactPair& pair : w.contacts.pairs) {
+    if (!pair.given.isZero(0)) join(w.bodies, islands, pair.a, pair.b);
+  }
+}
+
 void settle(Islands& islands, std::span<const BodyId> bodies) {
   for (const BodyId i : bodies) islands[i] = rootOf(islands, i);
 }

@@ -19,6 +19,9 @@ const Islands& jointIslands(World::Impl& world);
 
 void join(const Bodies& bodies, Islands& islands, BodyId a, BodyId b);
 
+// Joins those that a contact has moved in this substep.
+void joinPushed(const World::Impl& world, Islands& islands);
+
 // After the joins: every entry of `bodies` is its island's first body.
 void settle(Islands& islands, std::span<const BodyId> bodies);
 

@@ -33,26 +33,26 @@ void fillGravity(const Survey& s, Effect& e) {
   e.without = {"gravity=none"};
 }
 
-void fillRotation(const Survey& s, Effect& e) {
-  e.why = whyNothingTurns(s);
-  e.on = e.why.empty();
+// What turning bodies do; `whyNot`: nothing does. Empty: it is on.
+void fillTurning(const Survey& s, const std::string& whyNot, const Made& made, Effect& e) {
+  e.on = whyNot.empty();
   e.leftOut = !e.on;
-  if (e.on) e.why = s.place(s.turning);
-  e.count = s.turning.count;
+  e.why = e.on ? s.place(made) : whyNot;
+  e.count = made.count;
   e.unit = "bodies";
+}
+
+void fillRotation(const Survey& s, Effect& e) {
+  fillTurning(s, whyNothingTurns(s), s.turning, e);
   e.stays = "a body with a shape can turn";
 }
 
 void fillGyroscopic(const Survey& s, Effect& e) {
-  e.why = whyNothingTurns(s);
-  if (e.why.empty() && s.gyroscopic.count == 0) {
-    e.why = "inertia is isotropic: no gyroscopic torque";
+  std::string whyNot = whyNothingTurns(s);
+  if (whyNot.empty() && s.gyroscopic.count == 0) {
+    whyNot = "inertia is isotropic: no gyroscopic torque";
   }
-  e.on = e.why.empty();
-  e.leftOut = !e.on;
-  if (e.on) e.why = s.place(s.gyroscopic);
-  e.count = s.gyroscopic.count;
-  e.unit = "bodies";
+  fillTurning(s, whyNot, s.gyroscopic, e);
   e.stays = "it follows from the bodies' inertia";
 }
 

@@ -2,6 +2,7 @@
 #include "physics/effects/energy_bound.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "physics/choose_scheme.h"
@@ -43,9 +44,7 @@ double kineticEnergy(const Bodies& b, BodyId i) {
 // What joints and this substep's contacts join.
 Islands findIslands(World::Impl& w) {
   Islands islands = jointIslands(w);
-  for (const ContactPair& pair : w.contacts.pairs) {
-    if (!pair.given.isZero(0)) join(w.bodies, islands, pair.a, pair.b);
-  }
+  joinPushed(w, islands);
   settle(islands, w.bodies.active);
   return islands;
 }
@@ -149,7 +148,9 @@ void noteKineticEnergy(World::Impl& w) {
 }
 
 int boundEnergy(World::Impl& w, double h) {
-  if (w.kineticBefore.empty()) return 0;
+  const bool pushed = std::any_of(w.contacts.pairs.begin(), w.contacts.pairs.end(),
+                                  [](const ContactPair& pair) { return !pair.given.isZero(0); });
+  if (w.kineticBefore.empty() || !pushed) return 0;
   const Islands islands = findIslands(w);
   std::vector<Whole> wholes(islands.size());
   mark(w, islands, wholes);
