@@ -105,7 +105,8 @@ struct Multipliers {
   using Vector = typename Row<C::kBodies, C::kRows>::Vector;
   Vector total = Vector::Zero();     // accumulated, of the motion; the next substep's first guess
   Vector once = Vector::Zero();      // accumulated, of the error that stood at X^t
-  Vector standing = Vector::Zero();  // that error
+  Vector standing = Vector::Zero();  // that error, where it is taken back without speed
+  Vector left = Vector::Zero();      // of an error at X^t, what is left to later substeps
   bool loaded = false;               // it had a multiplier in the last substep
   double step = 0;                   // the dt that `total` belongs to [s]
 };

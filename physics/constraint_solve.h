@@ -10,6 +10,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "physics/constraint_response.h"
@@ -43,16 +44,40 @@ Eigen::Matrix<double, R, 1> step(Eigen::Matrix<double, R, R> a, double alpha, do
   }
 }
 
-// The part of an error at X^t that is wrong: all of an equality's, the violated side of a bound's.
+// The part of an error that is wrong: all of an equality's, the violated side of a bound's.
+template <int B, int R>
+typename Row<B, R>::Vector wrongPart(const Row<B, R>& row, const typename Row<B, R>::Vector& c) {
+  if (row.high <= 0) return c.cwiseMax(0);
+  if (row.low >= 0) return c.cwiseMin(0);
+  return c;
+}
+
 template <class C>
 typename Set<C>::Vector standingError(const Evaluated<C>& row) {
   if constexpr (Force<C>) {
     return Set<C>::Vector::Zero();
   } else {
-    if (row.high <= 0) return row.c.cwiseMax(0);
-    if (row.low >= 0) return row.c.cwiseMin(0);
-    return row.c;
+    return wrongPart(row, row.c);
   }
+}
+
+// How much of `standing` is to be taken back where the whole error is c: a bound gives way as far
+// as it has room.
+template <int B, int R>
+typename Row<B, R>::Vector toTakeBack(const Row<B, R>& row,
+                                      const typename Row<B, R>::Vector& standing,
+                                      const typename Row<B, R>::Vector& c) {
+  if (row.high <= 0) return standing.cwiseMin(c);
+  if (row.low >= 0) return standing.cwiseMax(c);
+  return standing;
+}
+
+// The error c but for what is left to later substeps; that may close, and is not held open.
+template <class V>
+V withoutLeft(const V& c, const V& left) {
+  const double squared = left.squaredNorm();
+  if (squared == 0) return c;
+  return c - std::clamp(c.dot(left) / squared, 0.0, 1.0) * left;
 }
 
 // The new total of a constraint whose error is c.
@@ -100,12 +125,13 @@ bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& 
   if constexpr (Force<C>) {
     lasting = pushed<C>(s.row, a, tuned.relaxation, lambda.total) - lambda.total;
   } else {
-    Vector c = s.row.c;
+    Vector c = withoutLeft(s.row.c, lambda.left);
     if (tuned.split || tuned.touches) {
       const Vector standing = lambda.standing + along(item, s.row, bodies.correction);
       if (!standing.isZero(0) || !lambda.once.isZero(0)) {
-        once = solved(item, s.row, a, tuned, standing, lambda.once) - lambda.once;
-        c -= standing;
+        once = solved(item, s.row, a, tuned, toTakeBack(s.row, standing, c), lambda.once) -
+               lambda.once;
+        c -= wrongPart(s.row, standing);
       }
     }
     lasting = solved(item, s.row, a, tuned, c, lambda.total) - lambda.total;
@@ -123,35 +149,6 @@ template <class C>
 bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
            Bodies& bodies, double dt, Scratch<C>& s) {
   return solve(item, lambda, tuned, bodies, configurationOf(item, bodies, dt), s);
-}
-
-// Multipliers are forces times the square of the step: to those of another step.
-template <class C>
-void rescale(Multipliers<C>& lambda, double step) {
-  if (lambda.step > 0 && lambda.step != step) {
-    lambda.total *= (step / lambda.step) * (step / lambda.step);
-  }
-  lambda.step = step;
-}
-
-// Start of a substep: what stands wrong at X^t, and the last multipliers as a first guess.
-template <class C>
-void prepare(const C& item, Multipliers<C>& lambda, bool warm, bool split, Bodies& bodies,
-             double dt) {
-  lambda.once.setZero();
-  lambda.loaded = !lambda.total.isZero(0);
-  const double step = stepOf(item, bodies, dt);
-  if (!warm) lambda.total.setZero();
-  rescale(lambda, step);
-  if (!split && lambda.total.isZero(0)) return;
-  Scratch<C> s;  // of a kind with kMany bodies this allocates, and only where multipliers are kept
-  const std::vector<Pose>& start = bodies.second.empty() ? bodies.start : bodies.second.origin;
-  item.evaluate({start, start, step}, s.row);
-  lambda.standing = standingError<C>(s.row);
-  if (lambda.total.isZero(0)) return;
-  resistance(item, s.row, bodies.inverse, s.response);
-  displaceBodies(item, s.response, Set<C>::Vector::Zero(), lambda.total, bodies);
-  countTwist(item, s.row, lambda.total, bodies);
 }
 
 }  // namespace physics

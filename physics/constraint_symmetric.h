@@ -48,7 +48,7 @@ bool solveSymmetric(const C& item, Multipliers<C>& lambda, const typename Set<C>
     const double dt = stepOf(item, bodies, 0);
     item.evaluate({bodies.pose, bodies.start, dt}, s.row);
     if (!s.row.active) return true;
-    const typename Set<C>::Vector c = s.row.c;
+    const typename Set<C>::Vector c = withoutLeft(s.row.c, lambda.left);
     item.evaluate({bodies.start, bodies.start, dt}, s.row);  // its J
     const auto a = resistance(item, s.row, bodies.inverse, s.response);
     if (!(a.trace() > 1e-300)) return a.trace() == a.trace();

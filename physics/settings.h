@@ -57,10 +57,12 @@ struct Settings {
   bool warmStart = true;       // contacts start from the last substep's multipliers
   bool warmStartJoints =
       false;  // and so do joints: better at rest, but violent motion may gain energy
-  std::optional<double> penaltyStiffness;  // kappa of the penalty methods; absent: their own
-  std::optional<Vec3> gravity;             // m/s^2; absent: none
-  std::optional<ContactSettings> contact;  // absent: nothing touches
-  std::optional<SleepSettings> sleep;      // absent: nothing sleeps
+  std::optional<double> maxCorrectionSpeed;  // a joint's error at X^t is taken back no faster [m/s,
+                                             // rad/s]; absent: in one substep
+  std::optional<double> penaltyStiffness;    // kappa of the penalty methods; absent: their own
+  std::optional<Vec3> gravity;               // m/s^2; absent: none
+  std::optional<ContactSettings> contact;    // absent: nothing touches
+  std::optional<SleepSettings> sleep;        // absent: nothing sleeps
   bool localSubsteps = false;    // each island as many as it needs, `substeps` at the most
   double localTolerance = 1e-4;  // error of a joint, or overlap, that asks for more [m or rad]
   bool leavesOut = true;         // what cannot matter is not computed; false: for comparison

@@ -17,6 +17,7 @@ void checkSettings(const Settings& s) {
   require(s.maxIterations >= 0 && s.tolerance >= 0, "iterations and tolerance must be >= 0");
   require(s.relaxation > 0 && s.relaxation < 2, "relaxation must lie between 0 and 2");
   require(s.regularisation >= 0 && std::isfinite(s.regularisation), "regularisation must be >= 0");
+  require(!s.maxCorrectionSpeed || *s.maxCorrectionSpeed > 0, "max_correction_speed must be > 0");
   require(!s.gravity || finite(*s.gravity), "gravity must be finite");
 }
 

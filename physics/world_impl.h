@@ -76,6 +76,7 @@ struct World::Impl {
   bool touches = false;  // something can
   // Before contacts are first looked for, when it is known which points a soft surface touches for.
   void takeShapes();
+  const std::vector<bool>& findAttached();
   FreeFlight flight(double dt);  // what restitution takes for granted, from velocityBefore
 
   void ignore(BodyId a, BodyId b) {

@@ -54,16 +54,20 @@ void findContactsHere(World::Impl& w) {
 
 }  // namespace
 
+const std::vector<bool>& World::Impl::findAttached() {
+  if (!attached.empty()) return attached;
+  attached.assign(bodies.pose.size(), false);
+  forEachKind(kinds, [&](const auto& kind) {
+    for (const auto& item : kind.set.items) {
+      for (const BodyId body : item.bodies) attached[body] = true;
+    }
+  });
+  attached[kWorldBody] = false;
+  return attached;
+}
+
 FreeFlight World::Impl::flight(double dt) {
-  if (attached.empty()) {
-    attached.assign(bodies.pose.size(), false);
-    forEachKind(kinds, [&](const auto& kind) {
-      for (const auto& item : kind.set.items) {
-        for (const BodyId body : item.bodies) attached[body] = true;
-      }
-    });
-  }
-  FreeFlight flight{settings.gravity, loads, velocityBefore, attached, dt};
+  FreeFlight flight{settings.gravity, loads, velocityBefore, findAttached(), dt};
   for (const SoftContact& contact : softContacts) flight.attached[contact.body] = true;
   return flight;
 }

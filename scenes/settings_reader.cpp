@@ -40,6 +40,7 @@ void readSimulation(TableReader& reader, Scene& scene) {
   reader(Field{"regularisation", Unit::kNone, false, 0, 1e6}, settings.regularisation);
   reader(Field{"warm_start"}, settings.warmStart);
   reader(Field{"warm_start_joints"}, settings.warmStartJoints);
+  reader(Field{"max_correction_speed", Unit::kNone, false, kPositive}, settings.maxCorrectionSpeed);
   reader(Field{"local_substeps"}, settings.localSubsteps);
   reader(Field{"local_tolerance", Unit::kMetre, false, kPositive}, settings.localTolerance);
   reader(Field{"leave_out"}, settings.leavesOut);

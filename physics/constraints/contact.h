@@ -65,8 +65,9 @@ void update(Contacts& contacts, std::span<const Manifold> manifolds, const Bodie
 // solve.
 void measureStart(ContactPair& pair, const Bodies& bodies);
 
-// Start of a substep: the same, slips, and with `warm` the last multipliers are applied.
-void prepare(ContactPair& pair, Bodies& bodies, bool warm);
+// Start of a substep: the same, slips, and the last multipliers are applied, as far as that moves
+// no point by more than `farthest` [m].
+void prepare(ContactPair& pair, Bodies& bodies, double farthest);
 
 // Applies every point's `extra`.
 void push(ContactPair& pair, Bodies& bodies);

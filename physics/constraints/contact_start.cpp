@@ -1,4 +1,6 @@
 // Contact: the start of a substep.
+#include <algorithm>
+
 #include "physics/constraints/contact.h"
 #include "physics/rotation.h"
 
@@ -14,9 +16,11 @@ Vec3 slipLeft(const ContactPointState& p, const Vec3& n, const Pose& a, const Po
 
 // How much of the last multiplier is likely to be needed again. One that is more than twice what it
 // was a substep earlier was an impact, which is over: then what there was before it.
-double lastingShare(const ContactPointState& p) {
-  if (p.normalTotal <= 2 * p.normalBefore || p.settled) return 1;
-  return p.normalBefore / p.normalTotal;
+double lastingShare(const ContactPointState& p, double farthest) {
+  if (farthest == 0) return 0;
+  const double share = std::min(1.0, farthest / (p.resistance * p.normalTotal));
+  if (p.normalTotal <= 2 * p.normalBefore || p.settled) return share;
+  return std::min(share, p.normalBefore / p.normalTotal);
 }
 
 // Multipliers are impulses times the step: to those of the bodies' present step.
@@ -50,7 +54,7 @@ void measureStart(ContactPair& pair, const Bodies& bodies) {
   }
 }
 
-void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
+void prepare(ContactPair& pair, Bodies& bodies, double farthest) {
   const Pose &a = bodies.start[pair.a], &b = bodies.start[pair.b];
   const Vec3 n = normalOf(pair, bodies.start);
   for (int k = 0; k < pair.count; ++k) pair.points[k].slip = slipLeft(pair.points[k], n, a, b);
@@ -61,7 +65,7 @@ void prepare(ContactPair& pair, Bodies& bodies, bool warm) {
     ContactPointState& p = pair.points[k];
     p.normalTotal *= rescaled;
     p.frictionTotal *= rescaled;
-    const double share = warm ? lastingShare(p) : 0;
+    const double share = lastingShare(p, farthest);
     p.normalBefore = p.normalTotal;
     p.normalTotal *= share;
     p.loaded = p.normalTotal > 0;

@@ -19,6 +19,8 @@ void Volume::evaluate(const Configuration& x, Row<kBodies, kRows>& row) const {
   row.alpha = compliance / (x.dt * x.dt);
 }
 
+double Volume::errorPerMetre() const { return 6 * std::cbrt(volume * volume); }
+
 double Volume::relativeError(std::span<const Pose> pose) const {
   const double now =
       volumeOf({pose[bodies[0]].x, pose[bodies[1]].x, pose[bodies[2]].x, pose[bodies[3]].x});

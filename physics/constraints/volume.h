@@ -38,6 +38,7 @@ struct Volume {
   double volume = 1, compliance = 0;
 
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
+  double errorPerMetre() const;  // c of one that is off by about a metre [m^2]
   double relativeError(std::span<const Pose> pose) const;  // |V/V_0 - 1|
 };
 

@@ -14,10 +14,11 @@ namespace physics {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of the kinetic energy: no gain
+constexpr double kWhirl = 0.5;      // a turn in one substep that contacts' directions miss [rad]
 
 // One island: what it weighs, how it moves, and what it may have of energy.
 struct Whole {
-  bool jointed = false, pushed = false, driven = false;
+  bool jointed = false, whirls = false, pushed = false, driven = false;
   double mass = 0, kinetic = 0, allowed = 0;
   Vec3 centre = Vec3::Zero(), momentum = Vec3::Zero(), spin = Vec3::Zero();
   Mat3 inertia = Mat3::Zero();
@@ -26,12 +27,7 @@ struct Whole {
 };
 
 bool applies(const World::Impl& w) {
-  if (!w.touches || isSecondOrder(w.settings) || w.settings.stepping == Stepping::kStatic) {
-    return false;
-  }
-  bool any = false;
-  forEachKind(w.kinds, [&](const auto& kind) { any = any || !kind.set.active.empty(); });
-  return any;
+  return w.touches && !isSecondOrder(w.settings) && w.settings.stepping != Stepping::kStatic;
 }
 
 double kineticEnergy(const Bodies& b, BodyId i) {
@@ -85,12 +81,13 @@ void sumUp(const World::Impl& w, const Islands& islands, double h, std::vector<W
     whole.centre += b.mass[i] * b.pose[i].x;
     whole.momentum += b.mass[i] * b.velocity[i].v;
     whole.kinetic += kineticEnergy(b, i);
+    whole.whirls = whole.whirls || h * b.velocity[i].w.norm() > kWhirl;
     whole.allowed += w.kineticBefore[i] + h * b.mass[i] * gravity.dot(b.velocity[i].v);
   }
 }
 
 bool gains(const Whole& whole) {
-  return whole.jointed && whole.pushed && !whole.driven &&
+  return (whole.jointed || whole.whirls) && whole.pushed && !whole.driven &&
          whole.kinetic - whole.allowed > kRounding * whole.kinetic;
 }
 

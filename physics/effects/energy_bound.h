@@ -1,4 +1,5 @@
-// A substep of joined bodies in contact gains no energy. Backward Euler's own steps obey
+// A substep of joined bodies in contact, or of bodies that a hit turns far, gains no energy.
+// Backward Euler's own steps obey
 //   K' - K <= h sum m g.v'
 // where its constraints hold at both ends; sweeps that leave errors behind, which the next substep
 // takes for motion, do not. Where an island has gained, its motion relative to its rigid part is
@@ -11,7 +12,7 @@
 
 namespace physics {
 
-// Asks for a kinetic energy at the start of the substep, where joined bodies may be in contact.
+// Takes down the kinetic energy at the start of the substep, where bodies may be in contact.
 void noteKineticEnergy(World::Impl& world);
 
 // After the velocities, before restitution. Returns how many islands were held back.

@@ -29,6 +29,7 @@ inline void release(JointRows& joint) {
     joint.angular[b].setZero();
   }
   joint.right.setZero();
+  joint.once.setZero();
   joint.error = 0;
 }
 

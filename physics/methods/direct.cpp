@@ -3,9 +3,10 @@
 
 #include <Eigen/LU>
 
-#include "physics/constraint_solve.h"
 #include "physics/effects/second_order.h"
 #include "physics/methods/active_set.h"
+#include "physics/methods/direct_apply.h"
+#include "physics/methods/direct_joints.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
 #include "physics/probe.h"
 
@@ -20,37 +21,23 @@ Scheme schemeOf(const Bodies& bodies, BodyId i) {
   return bodies.second.empty() ? Scheme::kPaper : bodies.second.scheme[i];
 }
 
-template <class C>
-constexpr bool isJoint() {
-  return !Force<C> && C::kBodies == 2;
-}
-
-template <class F>
-void forEachJoint(World::Impl& world, F&& f) {
-  std::size_t next = 0;
-  forEachKind(world.kinds, [&](auto& kind) {
-    auto& set = kind.set;
-    if constexpr (isJoint<typename std::decay_t<decltype(kind)>::Item>()) {
-      for (const int k : set.active) {
-        if (isSolvedDirectly(set.items[k])) f(set.items[k], set.lambda[k], set.tuned[k], next++);
-      }
-    }
-  });
-}
-
 // c at the present poses; J there, or at the start of the step where the symmetric scheme
 // displaces.
 template <class C>
 JointRows rowsOf(const C& item, const Bodies& bodies, double dt, Stage stage,
-                 Row<C::kBodies, C::kRows>& row) {
+                 const typename Set<C>::Vector& left, Row<C::kBodies, C::kRows>& row) {
   Configuration at = configurationOf(item, bodies, dt);
   item.evaluate(at, row);
+  row.c = withoutLeft(row.c, left);
   JointRows joint;
   joint.bodies = item.bodies;
   joint.rows = C::kRows;
-  joint.right.head(C::kRows) = -row.c;
-  joint.error = row.c.norm();
   joint.isSymmetric = isSymmetric(item, bodies);
+  if (!joint.isSymmetric) {
+    joint.once.head(C::kRows) = -wrongPart(row, along(item, row, bodies.correction));
+  }
+  joint.right.head(C::kRows) = -row.c - joint.once.head(C::kRows);
+  joint.error = row.c.norm();
   if (joint.isSymmetric && stage == Stage::kDisplacements) {
     at.now = bodies.start;
     item.evaluate(at, row);
@@ -138,15 +125,17 @@ void respond(const World::Impl& world, double regularisation, const Vec3& lambda
 // All joints at the present poses, and what their present multipliers do.
 void gather(World::Impl& world, double dt, Stage stage) {
   for (JointMotion& m : world.jointMotion) {
-    const JointMotion displaced{m.dx, m.dtheta};
-    m = displaced;
+    const Vec3 dx = m.dx, dtheta = m.dtheta;
+    m = JointMotion{};
+    m.dx = dx;
+    m.dtheta = dtheta;
   }
   world.jointRows.clear();
   int first = 0;
   forEachJoint(world, [&](auto& item, auto& lambda, auto&, std::size_t) {
     using C = std::decay_t<decltype(item)>;
     Row<C::kBodies, C::kRows> row;
-    JointRows joint = rowsOf(item, world.bodies, dt, stage, row);
+    JointRows joint = rowsOf(item, world.bodies, dt, stage, lambda.left, row);
     chooseActive(item, row, stage, world.bodies, lambda.total, joint);
     Vec3 total = Vec3::Zero();
     total.head(joint.rows) = lambda.total;
@@ -161,33 +150,6 @@ void gather(World::Impl& world, double dt, Stage stage) {
     total.head(world.jointRows[k].rows) = lambda.total;
     respond(world, tuned.regularisation, total, world.jointRows[k]);
   });
-}
-
-void apply(World::Impl& world) {
-  forEachJoint(world, [&](auto&, auto& lambda, auto&, std::size_t k) {
-    lambda.total += world.jointChange[k]
-                        .template head<std::decay_t<decltype(lambda.total)>::RowsAtCompileTime>();
-  });
-  for (JointMotion& m : world.jointMotion) {
-    m.impulse = -m.lagLinear;  // from here on: the displacement of this Newton step
-    m.torque = -m.lagAngular;
-  }
-  for (std::size_t k = 0; k < world.jointRows.size(); ++k) {
-    const JointRows& joint = world.jointRows[k];
-    for (int b = 0; b < 2; ++b) {
-      JointMotion& m = world.jointMotion[joint.bodies[b]];
-      m.impulse += joint.responseLinear[b] * world.jointChange[k];
-      m.torque += joint.responseAngular[b] * world.jointChange[k];
-    }
-  }
-  for (const BodyId i : world.bodies.active) {
-    JointMotion& m = world.jointMotion[i];
-    if (world.bodies.inverse[i].m == 0) continue;
-    m.dx += m.impulse;
-    m.dtheta += m.torque;
-    world.bodies.shift[i] += m.impulse;
-    displace(world.bodies.pose[i], m.impulse, m.torque);
-  }
 }
 
 // The joints' part of the angular impulse of bodies that step symmetrically, and where it turns
@@ -237,12 +199,14 @@ bool newtonStep(World::Impl& world, double dt) {
     world.joints.layOut(world.jointRows, world.bodies);
   }
   world.jointChange.assign(world.jointRows.size(), Vec3::Zero());
-  if (!world.joints.solve(world.jointRows, world.jointChange)) return false;
+  if (!world.joints.factorize(world.jointRows)) return false;
+  world.joints.solve(world.jointRows, &JointRows::right, world.jointChange);
   double sum = 0;
   for (const Vec3& change : world.jointChange) sum += change.sum();
   if (!std::isfinite(sum)) return false;
   world.jointError = world.bodies.second.empty() ? 0 : largestError(world);
-  apply(world);
+  applyNewtonStep(world);
+  followCorrections(world);
   turnSymmetric(world);
   if (setChanges(world)) world.jointError = std::numeric_limits<double>::infinity();
   return true;
@@ -265,7 +229,8 @@ void projectJoints(World::Impl& world) {
       joint.right -= joint.linear[b] * velocity.v + joint.angular[b] * velocity.w;
     }
   }
-  if (!world.joints.solve(world.jointRows, world.jointChange)) return;
+  if (!world.joints.factorize(world.jointRows)) return;
+  world.joints.solve(world.jointRows, &JointRows::right, world.jointChange);
   for (std::size_t k = 0; k < world.jointRows.size(); ++k) {
     const JointRows& joint = world.jointRows[k];
     if (!joint.isSymmetric) continue;

@@ -99,7 +99,7 @@ void JointSystem::layOut(std::span<const JointRows> joints, const Bodies& bodies
   s.right.resize(size);
 }
 
-bool JointSystem::solve(std::span<const JointRows> joints, std::span<Vec3> change) {
+bool JointSystem::factorize(std::span<const JointRows> joints) {
   Impl& s = *impl_;
   double* values = s.matrix.valuePtr();
   for (const Impl::Block& block : s.blocks) {
@@ -112,17 +112,21 @@ bool JointSystem::solve(std::span<const JointRows> joints, std::span<Vec3> chang
       if (block.k == block.l) column[c] += k.alpha;
     }
   }
-  for (const JointRows& joint : joints) {
-    s.right.segment(joint.first, joint.rows) = joint.right.head(joint.rows);
-  }
   s.factor.factorize(s.matrix);
-  if (s.factor.info() != Eigen::Success) return false;
+  return s.factor.info() == Eigen::Success;
+}
+
+void JointSystem::solve(std::span<const JointRows> joints, Vec3 JointRows::*right,
+                        std::span<Vec3> change) {
+  Impl& s = *impl_;
+  for (const JointRows& joint : joints) {
+    s.right.segment(joint.first, joint.rows) = (joint.*right).head(joint.rows);
+  }
   s.solution = s.factor.solve(s.right);
   for (std::size_t k = 0; k < joints.size(); ++k) {
     change[k].setZero();
     change[k].head(joints[k].rows) = s.solution.segment(joints[k].first, joints[k].rows);
   }
-  return true;
 }
 
 }  // namespace physics

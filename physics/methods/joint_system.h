@@ -19,12 +19,13 @@ struct JointRows {
   std::array<BodyId, 2> bodies{};
   int first = 0, rows = 0;
   double alpha = 0;
-  double error = 0;                                     // |c|
-  int side = 0;                                         // 1: lambda >= 0, -1: <= 0, 0: any
-  bool changes = false;                                 // it held, and has been let go
-  bool isSymmetric = false;                             // J is that of the start of the step
-  Vec3 right = Vec3::Zero();                            // -(c + alpha lambda) + J M^-1 r
-  std::array<Mat3, 2> linear, angular;                  // J, one row per constraint row
+  double error = 0;                     // |c|
+  int side = 0;                         // 1: lambda >= 0, -1: <= 0, 0: any
+  bool changes = false;                 // it held, and has been let go
+  bool isSymmetric = false;             // J is that of the start of the step
+  Vec3 right = Vec3::Zero();            // -(c + alpha lambda) + J M^-1 r, of the motion
+  Vec3 once = Vec3::Zero();             // -J dX of what contacts have corrected
+  std::array<Mat3, 2> linear, angular;  // J, one row per constraint row
   std::array<Mat3, 2> responseLinear, responseAngular;  // (M + K)^-1 J^T, one column per row
 };
 
@@ -48,8 +49,11 @@ class JointSystem {
   void layOut(std::span<const JointRows> joints, const Bodies& bodies);
   bool isLaidOutFor(std::size_t joints) const;
 
-  // Writes the change of every joint's multipliers to `change`. False when the factor breaks down.
-  bool solve(std::span<const JointRows> joints, std::span<Vec3> change);
+  // False when it breaks down.
+  bool factorize(std::span<const JointRows> joints);
+
+  // Writes the change of every joint's multipliers, for that right-hand side, to `change`.
+  void solve(std::span<const JointRows> joints, Vec3 JointRows::*right, std::span<Vec3> change);
 
  private:
   struct Impl;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "physics/constraint_start.h"
 #include "physics/constraint_symmetric.h"
 #include "physics/effects/second_order.h"
 #include "physics/methods/direct.h"
@@ -129,6 +130,20 @@ bool onlyContacts(const World::Impl& world) {
   return only;
 }
 
+// Contacts start from their last multipliers. Joints do not: of a jointed body those may carry more
+// than its own weight, which alone would throw it.
+void prepareContacts(World::Impl& world, bool warm) {
+  if (world.contacts.pairs.empty()) return;
+  turnTo("contact");
+  const std::vector<bool>& attached = world.findAttached();
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  for (ContactPair& pair : world.contacts.pairs) {
+    const bool jointed = attached[pair.a] || attached[pair.b];
+    const double farthest = jointed ? world.settings.contact->margin : kAnywhere;
+    prepare(pair, world.bodies, warm ? farthest : 0);
+  }
+}
+
 }  // namespace
 
 void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body) {
@@ -142,11 +157,13 @@ void refreshInverseMasses(World::Impl& world, double dt) {
 void prepareConstraints(World::Impl& world, double dt) {
   const bool isLinear = world.settings.method == Method::kLinearGaussSeidel;
   const bool warm = world.settings.warmStartJoints && !isLinear;
+  const std::optional<double>& speed = world.settings.maxCorrectionSpeed;
   forEachKind(world.kinds, [&](auto& kind) {
     auto& set = kind.set;
     if (set.active.empty()) return;
     turnTo(std::decay_t<decltype(kind)>::kWord);
     for (const int k : set.active) {
+      if (speed) leave(set.items[k], set.lambda[k], *speed * dt, world.bodies, dt);
       if (isDirect(world) && isSolvedDirectly(set.items[k])) {  // goes on from its last multipliers
         set.lambda[k].loaded = !set.lambda[k].total.isZero(0);
         rescale(set.lambda[k], stepOf(set.items[k], world.bodies, dt));
@@ -156,10 +173,7 @@ void prepareConstraints(World::Impl& world, double dt) {
               set.tuned[k].split, world.bodies, dt);
     }
   });
-  if (!world.contacts.pairs.empty()) turnTo("contact");
-  for (ContactPair& pair : world.contacts.pairs) {
-    prepare(pair, world.bodies, world.settings.warmStart && !isLinear);
-  }
+  prepareContacts(world, world.settings.warmStart && !isLinear);
 }
 
 bool sweep(World::Impl& world, double dt, bool backward, StepReport& report) {

@@ -1,0 +1,197 @@
+// Jointed bodies in contact: what contacts correct, joints follow without speed, by either method.
+#include <gtest/gtest.h>
+
+#include "physics/constraints/ball_socket.h"
+#include "physics/constraints/cone_limit.h"
+#include "physics/constraints/volume.h"
+#include "physics/world.h"
+
+namespace physics {
+namespace {
+
+class JointedContact : public ::testing::TestWithParam<Method> {
+ protected:
+  Settings settings() const {
+    Settings settings;
+    settings.method = GetParam();
+    settings.iterations = 4;
+    settings.maxIterations = 200;
+    settings.contact = ContactSettings{};
+    return settings;
+  }
+};
+
+void addGround(World& world) {
+  BodyDef ground;
+  ground.shape = Plane{Vec3(0, 1, 0), 0};
+  ground.motion = Motion::kStatic;
+  world.add(ground);
+}
+
+BodyId addBox(World& world, const Vec3& size, const Vec3& x, double mass) {
+  BodyDef box;
+  box.shape = Box{size};
+  box.pose.x = x;
+  box.mass = mass;
+  return world.add(box);
+}
+
+void join(World& world, BodyId a, BodyId b, const Vec3& at) {
+  BallSocketDef joint;
+  joint.bodies = {a, b};
+  joint.at = at;
+  world.add(joint);
+}
+
+double fastest(const World& world) {
+  double most = 0;
+  for (const Velocity& velocity : world.bodies().velocity) most = std::max(most, velocity.v.norm());
+  return most;
+}
+
+double errorOf(const World& world, const std::string& kind) {
+  for (const KindError& error : world.constraintErrors()) {
+    if (error.kind == kind) return error.largest;
+  }
+  return -1;
+}
+
+// Two boxes on a ball joint, the first of them 1 cm deep in the ground, without gravity.
+struct Sunk {
+  World world;
+  BodyId a, b;
+  explicit Sunk(const Settings& settings) : world(settings) {
+    addGround(world);
+    a = addBox(world, Vec3(0.4, 0.4, 0.4), Vec3(0, 0.19, 0), 1);
+    b = addBox(world, Vec3(0.4, 0.2, 0.2), Vec3(0.45, 0.3, 0), 2);
+    join(world, a, b, Vec3(0.22, 0.3, 0));
+  }
+};
+
+TEST_P(JointedContact, WhatIsPushedOutOfAnOverlapIsFollowedWithoutSpeed) {
+  Sunk sunk(settings());
+  for (int k = 0; k < 60; ++k) {
+    sunk.world.step();
+    ASSERT_LT(fastest(sunk.world), 1e-4) << "step " << k;
+  }
+  EXPECT_GT(sunk.world.bodies().pose[sunk.a].x.y(), 0.1998);
+  EXPECT_LT(errorOf(sunk.world, "ball_socket"), 1e-5);
+}
+
+// A bound that is not reached takes no part in it.
+TEST_P(JointedContact, ALimitWithRoomChangesNothing) {
+  Sunk free(settings()), limited(settings());
+  ConeLimitDef limit;
+  limit.bodies = {limited.a, limited.b};
+  limit.angle = 0.5;
+  limited.world.add(limit);
+  for (int k = 0; k < 30; ++k) {
+    free.world.step();
+    limited.world.step();
+    const Pose &p = free.world.bodies().pose[free.b], &q = limited.world.bodies().pose[limited.b];
+    ASSERT_LT((p.x - q.x).norm(), 1e-12) << "step " << k;
+  }
+}
+
+// The feet carry forty times their own weight. The multipliers of their contacts, applied before
+// those of the joints, would throw them by metres in a step this long.
+TEST_P(JointedContact, LightFeetUnderAHeavyBodyRestAtTenStepsASecond) {
+  Settings s = settings();
+  s.dt = 0.1;
+  s.substeps = 1;
+  s.gravity = Vec3(0, -9.81, 0);
+  World world(s);
+  addGround(world);
+  const BodyId body = addBox(world, Vec3(1, 0.3, 0.6), Vec3(0, 0.45, 0), 64);
+  for (const double x : {-0.4, 0.4}) {
+    for (const double z : {-0.2, 0.2}) {
+      const BodyId foot = addBox(world, Vec3(0.1, 0.2, 0.1), Vec3(x, 0.15, z), 0.4);
+      join(world, body, foot, Vec3(x, 0.28, z));
+    }
+  }
+  double most = 0;
+  for (int k = 0; k < 100; ++k) {
+    ASSERT_FALSE(world.step().notFinite);
+    if (k >= 80) most = std::max(most, fastest(world));
+  }
+  EXPECT_LT(most, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, JointedContact,
+                         ::testing::Values(Method::kNonlinearGaussSeidel, Method::kDirect),
+                         [](const auto& info) {
+                           return info.param == Method::kDirect ? "direct" : "gauss_seidel";
+                         });
+
+struct Way {
+  const char* name;
+  Method method;
+  Stepping stepping;
+};
+
+class MaxCorrectionSpeed : public ::testing::TestWithParam<Way> {
+ protected:
+  Settings settings() const {
+    Settings settings;
+    settings.method = GetParam().method;
+    settings.stepping = GetParam().stepping;
+    settings.iterations = 20;
+    settings.maxCorrectionSpeed = 2;
+    return settings;
+  }
+};
+
+// 0.5 m at 2 m/s, and by the motion that the last substep leaves a little faster.
+TEST_P(MaxCorrectionSpeed, AnOpenJointClosesNoFaster) {
+  World world(settings());
+  const BodyId a = addBox(world, Vec3(0.2, 0.2, 0.2), Vec3(0, 0, 0), 1);
+  const BodyId b = addBox(world, Vec3(0.2, 0.2, 0.2), Vec3(0.5, 0, 0), 3);
+  BallSocketDef joint;
+  joint.bodies = {a, b};
+  joint.anchors = {{Vec3::Zero(), Vec3::Zero()}};
+  world.add(joint);
+  double gap = 0.5;
+  for (int k = 0; k < 30; ++k) {
+    world.step();
+    const auto& pose = world.bodies().pose;
+    const double now = (pose[a].x - pose[b].x).norm();
+    ASSERT_GT(now, gap - 2.0 / 60 * 1.51)
+        << "step " << k;  // bdf2 starts with a substep of half again
+    gap = now;
+  }
+  EXPECT_LT(gap, 1e-6);
+}
+
+// A flat tetrahedron gets its volume back, and no corner is faster than the bound allows a length
+// of its size.
+TEST_P(MaxCorrectionSpeed, AFlatTetrahedronSwellsNoFaster) {
+  if (GetParam().stepping != Stepping::kPaper) GTEST_SKIP() << "one stepping will do";
+  World world(settings());
+  std::vector<BodyId> corners;
+  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.3, 0.3, 0)}) {
+    BodyDef point;
+    point.shape = PointShape{};
+    point.pose.x = x;
+    corners.push_back(world.add(point));
+  }
+  VolumeDef volume;
+  volume.bodies = {corners[0], corners[1], corners[2], corners[3]};
+  volume.volume = 0.1;
+  world.add(volume);
+  for (int k = 0; k < 60; ++k) {
+    world.step();
+    ASSERT_LT(fastest(world), 4) << "step " << k;
+  }
+  EXPECT_LT(errorOf(world, "volume"), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ways, MaxCorrectionSpeed,
+    ::testing::Values(Way{"gauss_seidel", Method::kNonlinearGaussSeidel, Stepping::kPaper},
+                      Way{"direct", Method::kDirect, Stepping::kPaper},
+                      Way{"direct_bdf2", Method::kDirect, Stepping::kBdf2},
+                      Way{"direct_symmetric", Method::kDirect, Stepping::kSymmetric}),
+    [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace physics
