@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics/choose_scheme.h"
+#include "physics/constraint_response.h"
 #include "physics/effects/second_order.h"
 #include "physics/islands.h"
 #include "physics/world_impl.h"
@@ -45,19 +46,24 @@ Islands findIslands(World::Impl& w) {
   return islands;
 }
 
-// Who may gain: islands with forces, motors, moved bodies or loads; and who cannot: those without a
-// joint, or untouched.
-void mark(World::Impl& w, const Islands& islands, std::vector<Whole>& wholes) {
-  forEachKind(w.kinds, [&](const auto& kind) {
-    using C = typename std::decay_t<decltype(kind)>::Item;
-    for (const int k : kind.set.active) {
-      for (const BodyId body : kind.set.items[k].bodies) {
-        Whole& whole = wholes[islands[body]];
-        whole.jointed = true;
-        whole.driven = whole.driven || !canStand<C>();
-      }
-    }
-  });
+// What a force or a motor does in the substep: its impulse times the rate that it ends with [J].
+template <class C>
+double workOf(const C& item, const Multipliers<C>& lambda, const Bodies& bodies, double h,
+              Scratch<C>& s) {
+  item.evaluate({bodies.pose, bodies.start, h}, s.row);
+  if (!s.row.active) return 0;
+  typename Set<C>::Vector rate = Set<C>::Vector::Zero();
+  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+    const Velocity& velocity = bodies.velocity[item.bodies[b]];
+    if constexpr (C::kLinear) rate += s.row.linear[b] * velocity.v;
+    if constexpr (isAngular<C>()) rate += s.row.angular[b] * velocity.w;
+  }
+  return lambda.total.dot(rate) / h;
+}
+
+// What contacts move, and what joins it and does work on it. What moved bodies do is not known:
+// their islands are left alone.
+void mark(World::Impl& w, const Islands& islands, double h, std::vector<Whole>& wholes) {
   for (const ContactPair& pair : w.contacts.pairs) {
     if (pair.given.isZero(0)) continue;
     for (const BodyId body : {pair.a, pair.b}) {
@@ -66,10 +72,19 @@ void mark(World::Impl& w, const Islands& islands, std::vector<Whole>& wholes) {
       wholes[islands[pair.a]].driven = wholes[islands[pair.b]].driven = true;
     }
   }
-  for (const BodyId body : w.loaded) wholes[islands[body]].driven = true;
   for (const BodyId i : w.bodies.active) {
     if (w.bodies.motion[i] == Motion::kKinematic) wholes[islands[i]].driven = true;
   }
+  forEachKind(w.kinds, [&](auto& kind) {
+    using C = typename std::decay_t<decltype(kind)>::Item;
+    for (const int k : kind.set.active) {
+      const C& item = kind.set.items[k];
+      Whole& whole = wholes[islands[moverOf(item, w.bodies)]];
+      whole.jointed = true;
+      if (canStand<C>() || !whole.pushed) continue;
+      whole.allowed += workOf(item, kind.set.lambda[k], w.bodies, h, kind.set.scratch);
+    }
+  });
 }
 
 void sumUp(const World::Impl& w, const Islands& islands, double h, std::vector<Whole>& wholes) {
@@ -83,6 +98,8 @@ void sumUp(const World::Impl& w, const Islands& islands, double h, std::vector<W
     whole.kinetic += kineticEnergy(b, i);
     whole.whirls = whole.whirls || h * b.velocity[i].w.norm() > kWhirl;
     whole.allowed += w.kineticBefore[i] + h * b.mass[i] * gravity.dot(b.velocity[i].v);
+    whole.allowed +=
+        h * (w.loads[i].force.dot(b.velocity[i].v) + w.loads[i].torque.dot(b.velocity[i].w));
   }
 }
 
@@ -150,7 +167,7 @@ int boundEnergy(World::Impl& w, double h) {
   if (w.kineticBefore.empty() || !pushed) return 0;
   const Islands islands = findIslands(w);
   std::vector<Whole> wholes(islands.size());
-  mark(w, islands, wholes);
+  mark(w, islands, h, wholes);
   sumUp(w, islands, h, wholes);
   int bounded = 0;
   for (const BodyId i : w.bodies.active) {

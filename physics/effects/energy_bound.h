@@ -1,11 +1,11 @@
 // A substep of joined bodies in contact, or of bodies that a hit turns far, gains no energy.
 // Backward Euler's own steps obey
-//   K' - K <= h sum m g.v'
+//   K' - K <= h sum m g.v' + sum lambda J v' / h,  over forces and motors
 // where its constraints hold at both ends; sweeps that leave errors behind, which the next substep
 // takes for motion, do not. Where an island has gained, its motion relative to its rigid part is
 // scaled, v <- V + s (v - V) with V of the same linear and angular momentum: both are kept, joints
 // that hold go on holding. What static bodies gave is scaled as well where that does not suffice.
-// Islands with forces, motors or loads of their own are left alone: those may do work.
+// Islands with kinematic bodies are left alone: what those do is not known.
 #pragma once
 
 #include "physics/world.h"

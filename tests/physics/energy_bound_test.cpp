@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "physics/constraints/ball_socket.h"
+#include "physics/constraints/force.h"
 #include "physics/measure.h"
 #include "physics/world.h"
 
@@ -69,6 +70,58 @@ TEST_P(EnergyBound, KineticEnergyRisesByTheWorkOfGravityAtTheMost) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Speeds, EnergyBound, ::testing::Values(10.0, 50.0, 200.0));
+
+// Islands that forces act on are held to the forces' work, not left alone.
+TEST_P(EnergyBound, KineticEnergyRisesByTheWorkOfAForceAtTheMost) {
+  Thrown thrown(GetParam());
+  World& world = thrown.world;
+  ForceDef push;
+  push.bodies = {thrown.boxes[0]};
+  push.force = Vec3(-30, 0, 0);
+  world.add(push);
+  int bounded = 0;
+  double kinetic = measure(world).kinetic;
+  const double most = kinetic + 12 * 9.81 * 2 + 30 * 2;  // J
+  for (int k = 0; k < 120; ++k) {
+    const StepReport report = world.step();
+    ASSERT_FALSE(report.notFinite);
+    bounded += report.bounded;
+    kinetic = std::max(kinetic, measure(world).kinetic);
+  }
+  EXPECT_LT(kinetic, most);
+  EXPECT_GT(bounded, 0);
+}
+
+// Two boxes on a ball joint, pulled over the ground: (F - mu m g) / m.
+TEST(EnergyBound, LetsAForceDoItsWork) {
+  Settings settings = Thrown::settings();
+  settings.iterations = settings.maxIterations = 20;
+  World world(settings);
+  BodyDef ground;
+  ground.shape = Plane{Vec3(0, 1, 0), 0};
+  ground.motion = Motion::kStatic;
+  world.add(ground);
+  std::vector<BodyId> boxes;
+  for (int i = 0; i < 2; ++i) {
+    BodyDef box;
+    box.shape = Box{Vec3(0.5, 0.2, 0.5)};
+    box.pose.x = Vec3(0.6 * i, 0.1, 0);
+    boxes.push_back(world.add(box));
+  }
+  BallSocketDef joint;
+  joint.bodies = {boxes[0], boxes[1]};
+  joint.at = Vec3(0.3, 0.1, 0);
+  world.add(joint);
+  ForceDef pull;
+  pull.bodies = {boxes[1]};
+  pull.force = Vec3(20, 0, 0);
+  world.add(pull);
+  for (int k = 0; k < 60; ++k) world.step();
+  const double expected = (20 - 0.5 * 2 * 9.81) / 2;  // m/s after 1 s
+  for (const BodyId box : boxes) {
+    EXPECT_NEAR(world.bodies().velocity[box].v.x(), expected, 0.01 * expected);
+  }
+}
 
 TEST(EnergyBound, LeavesMotionWithoutContactsAlone) {
   Settings settings = Thrown::settings();
