@@ -15,17 +15,17 @@ namespace {
 constexpr double kFarthestTurn = 0.5;  // rad
 
 void shorten(World::Impl& world) {
-  std::vector<double> farthest(world.bodies.pose.size(), 0.0);
+  const auto turnOf = [&](BodyId i) { return world.jointMotion[i].torque.norm(); };
+  const auto isTooFar = [&](BodyId i) {
+    return turnOf(i) > kFarthestTurn && std::isfinite(turnOf(i));
+  };
+  const std::vector<BodyId>& active = world.bodies.active;
+  if (std::none_of(active.begin(), active.end(), isTooFar)) return;
   const Islands& islands = jointIslands(world);
-  bool tooFar = false;
-  for (const BodyId i : world.bodies.active) {
-    double& turn = farthest[islands[i]];
-    turn = std::max(turn, world.jointMotion[i].torque.norm());
-    tooFar = tooFar || (std::isfinite(turn) && turn > kFarthestTurn);
-  }
-  if (!tooFar) return;
+  std::vector<double> farthest(world.bodies.pose.size(), 0.0);
+  for (const BodyId i : active) farthest[islands[i]] = std::max(farthest[islands[i]], turnOf(i));
   const auto part = [&](BodyId i) { return std::min(1.0, kFarthestTurn / farthest[islands[i]]); };
-  for (const BodyId i : world.bodies.active) {
+  for (const BodyId i : active) {
     world.jointMotion[i].impulse *= part(i);
     world.jointMotion[i].torque *= part(i);
   }
