@@ -63,10 +63,12 @@ TEST(StabilityCase, HasTheSettingsOfItsFamily) {
   const StabilityFamily family = chains();
   const Value* substeps = findValue(family.settings, "simulation.substeps");
   ASSERT_NE(substeps, nullptr);
+  const Value* most = findValue(family.settings, "simulation.max_iterations");
+  ASSERT_NE(most, nullptr);
   const Scene scene = sceneOf(kHead + kBody);
   EXPECT_EQ(scene.settings.substeps, substeps->integer);
   EXPECT_EQ(scene.settings.method, physics::Method::kDirect);
-  EXPECT_EQ(scene.settings.stepping, physics::Stepping::kBdf2);
+  EXPECT_EQ(scene.settings.maxIterations, most->integer);
 }
 
 TEST(StabilityCase, IsOverriddenFromTheCommandLineAllTheSame) {
