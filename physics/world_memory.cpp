@@ -75,8 +75,9 @@ std::vector<EffectMemory> World::memory() const {
   };
   add("gyroscopic", bytesOf(w.bodies.anisotropic));
   add("contact", w.collider.bytes() + bytesOf(w.contacts) + w.softCollider.bytes() +
-                     bytesOf(w.softContacts) + w.conjugate.bytes());
-  add("restitution", bytesOf(w.velocityBefore) + bytesOf(w.attached));
+                     bytesOf(w.softContacts) + w.conjugate.bytes() + bytesOf(w.attached) +
+                     bytesOf(w.kineticBefore));
+  add("restitution", bytesOf(w.velocityBefore));
   add("stepping", bytesOf(w.bodies.second) + bytesOf(w.stepper) + bytesOf(w.contactsBefore));
   add("direct", bytesOf(w.jointRows) + bytesOf(w.jointChange) + bytesOf(w.jointMotion));
   add("sleep", bytesOf(w.sleep) + bytesOf(w.present) + bytesOf(w.own));

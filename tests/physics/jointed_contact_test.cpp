@@ -128,6 +128,7 @@ struct Way {
   Method method;
   Stepping stepping;
 };
+std::ostream& operator<<(std::ostream& out, const Way& way) { return out << way.name; }
 
 class MaxCorrectionSpeed : public ::testing::TestWithParam<Way> {
  protected:
