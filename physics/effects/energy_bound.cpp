@@ -9,6 +9,7 @@
 #include "physics/constraint_response.h"
 #include "physics/effects/second_order.h"
 #include "physics/islands.h"
+#include "physics/methods/nonlinear_gauss_seidel.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -36,6 +37,18 @@ double kineticEnergy(const Bodies& b, BodyId i) {
   const Velocity& velocity = b.velocity[i];
   return 0.5 * b.mass[i] * velocity.v.squaredNorm() +
          0.5 * velocity.w.dot(angularMomentum(b, i, velocity.w));
+}
+
+bool whirls(const Bodies& b, BodyId i, double h) { return h * b.velocity[i].w.norm() > kWhirl; }
+
+// Whether some island can have: most heaps have nothing joined, and nothing that whirls.
+bool mayGain(const World::Impl& w, double h) {
+  const auto& pairs = w.contacts.pairs;
+  const std::vector<BodyId>& active = w.bodies.active;
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [](const ContactPair& pair) { return !pair.given.isZero(0); }) &&
+         (!onlyContacts(w) || std::any_of(active.begin(), active.end(),
+                                          [&](BodyId i) { return whirls(w.bodies, i, h); }));
 }
 
 // What joints and this substep's contacts join.
@@ -96,7 +109,7 @@ void sumUp(const World::Impl& w, const Islands& islands, double h, std::vector<W
     whole.centre += b.mass[i] * b.pose[i].x;
     whole.momentum += b.mass[i] * b.velocity[i].v;
     whole.kinetic += kineticEnergy(b, i);
-    whole.whirls = whole.whirls || h * b.velocity[i].w.norm() > kWhirl;
+    whole.whirls = whole.whirls || whirls(b, i, h);
     whole.allowed += w.kineticBefore[i] + h * b.mass[i] * gravity.dot(b.velocity[i].v);
     whole.allowed +=
         h * (w.loads[i].force.dot(b.velocity[i].v) + w.loads[i].torque.dot(b.velocity[i].w));
@@ -162,9 +175,7 @@ void noteKineticEnergy(World::Impl& w) {
 }
 
 int boundEnergy(World::Impl& w, double h) {
-  const bool pushed = std::any_of(w.contacts.pairs.begin(), w.contacts.pairs.end(),
-                                  [](const ContactPair& pair) { return !pair.given.isZero(0); });
-  if (w.kineticBefore.empty() || !pushed) return 0;
+  if (w.kineticBefore.empty() || !mayGain(w, h)) return 0;
   const Islands islands = findIslands(w);
   std::vector<Whole> wholes(islands.size());
   mark(w, islands, h, wholes);

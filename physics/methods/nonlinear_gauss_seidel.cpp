@@ -122,14 +122,6 @@ Patience patience(const World::Impl& world) {
   return {s.iterations, s.maxIterations, s.tolerance};
 }
 
-// Conjugate directions are those of the contacts alone: with joints between them they would not be
-// conjugate.
-bool onlyContacts(const World::Impl& world) {
-  bool only = true;
-  forEachKind(world.kinds, [&](const auto& kind) { only = only && kind.set.active.empty(); });
-  return only;
-}
-
 // Contacts start from their last multipliers. Joints do not: of a jointed body those may carry more
 // than its own weight, which alone would throw it.
 void prepareContacts(World::Impl& world, bool warm) {
@@ -145,6 +137,12 @@ void prepareContacts(World::Impl& world, bool warm) {
 }
 
 }  // namespace
+
+bool onlyContacts(const World::Impl& world) {
+  bool only = true;
+  forEachKind(world.kinds, [&](const auto& kind) { only = only && kind.set.active.empty(); });
+  return only;
+}
 
 void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body) {
   report.notFinite = {report.substeps, body, std::string(kind) + " " + std::to_string(index)};
@@ -189,7 +187,7 @@ bool sweep(World::Impl& world, double dt, bool backward, StepReport& report) {
 void iterate(World::Impl& world, double dt, StepReport& report,
              const std::function<bool()>& beforeSweep) {
   const Patience limit = patience(world);
-  const bool accelerated = onlyContacts(world);
+  const bool accelerated = onlyContacts(world);  // with joints between, nothing would be conjugate
   const auto isSettled = [&] {
     return report.residual <= limit.tolerance && !(world.jointError > kClosed);
   };

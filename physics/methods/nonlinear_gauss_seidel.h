@@ -8,6 +8,9 @@
 
 namespace physics {
 
+// Nothing that steps is joined or pushed by a constraint or a force.
+bool onlyContacts(const World::Impl& world);
+
 // Tells which constraint gave a number that is not finite.
 void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body);
 
