@@ -17,7 +17,6 @@ void findIslands(World::Impl& w) {
   const Islands& joined = jointIslands(w);
   for (const BodyId i : w.bodies.active) island[i] = joined[i];
   joinPushed(w, island);
-  for (const Meeting& meeting : w.stepper.lost) join(w.bodies, island, meeting.a, meeting.b);
   for (const SoftContact& c : w.softContacts) {
     if (c.normalTotal == 0) continue;
     join(w.bodies, island, c.from, c.to);

@@ -20,8 +20,8 @@ bool isLoaded(const ContactPair& pair);
 double jumpSpeed(const World::Impl& world, double h);  // what gravity gives in two substeps [m/s]
 bool jumps(const ContactPair& pair, double speed);     // it began, closing faster than that
 
-// What a contact did to its bodies in this substep.
-Meeting meetingOf(const World::Impl& world, const ContactPair& pair);
+// What a contact has changed of its bodies' relative speed in this substep [m/s].
+double speedGiven(const World::Impl& world, const ContactPair& pair);
 
 // The paper's scheme for everything, which no contact that is found late can make wrong.
 void stepByPaper(World::Impl& world);

@@ -98,8 +98,8 @@ const ContactPair* findPair(const std::vector<ContactPair>& pairs, BodyId a, Bod
   return found != pairs.end() && found->a == a && found->b == b ? &*found : nullptr;
 }
 
-double speedOf(const World::Impl& w, const ContactPair* pair) {
-  return pair == nullptr ? 0 : meetingOf(w, *pair).speed;
+double speedGiven(const World::Impl& w, const ContactPair* pair) {
+  return pair == nullptr ? 0 : speedGiven(w, *pair);
 }
 
 // Contacts whose impulse is more than twice, or less than half, that of the last substep: impacts,
@@ -107,21 +107,22 @@ double speedOf(const World::Impl& w, const ContactPair* pair) {
 void compareContacts(World::Impl& w, double least) {
   Stepper& stepper = w.stepper;
   for (const ContactPair& pair : w.contacts.pairs) {
-    const double now = meetingOf(w, pair).speed;
-    if (!(now > least) || now <= 2 * speedOf(w, findPair(w.contactsBefore, pair.a, pair.b)))
+    const double now = speedGiven(w, pair);
+    if (!(now > least) || now <= 2 * speedGiven(w, findPair(w.contactsBefore, pair.a, pair.b)))
       continue;
     stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
   }
   for (const ContactPair& pair : w.contactsBefore) {
-    const double before = meetingOf(w, pair).speed;
-    if (!(before > least) || 2 * speedOf(w, findPair(w.contacts.pairs, pair.a, pair.b)) >= before) {
+    const double before = speedGiven(w, pair);
+    if (!(before > least) ||
+        2 * speedGiven(w, findPair(w.contacts.pairs, pair.a, pair.b)) >= before) {
       continue;
     }
     stepper.parted[pair.a] = stepper.parted[pair.b] = true;
   }
-  for (const Meeting& meeting : stepper.lost) {
-    if (!(meeting.speed > least) || findPair(w.contacts.pairs, meeting.a, meeting.b)) continue;
-    stepper.smooth[meeting.a] = stepper.smooth[meeting.b] = false;
+  for (const ContactPair& pair : w.contacts.lost) {
+    if (!(speedGiven(w, pair) > least) || findPair(w.contacts.pairs, pair.a, pair.b)) continue;
+    stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
   }
 }
 
@@ -160,10 +161,9 @@ bool jumps(const ContactPair& pair, double speed) {
   return false;
 }
 
-Meeting meetingOf(const World::Impl& w, const ContactPair& pair) {
+double speedGiven(const World::Impl& w, const ContactPair& pair) {
   const double inverseMass = w.bodies.inverse[pair.a].m + w.bodies.inverse[pair.b].m;
-  const double speed = pair.step > 0 ? inverseMass * pair.given.norm() / pair.step : 0;
-  return {pair.a, pair.b, speed};
+  return pair.step > 0 ? inverseMass * pair.given.norm() / pair.step : 0;
 }
 
 void inspectMotion(World::Impl& w, double h) {

@@ -42,9 +42,8 @@ const Islands& jointIslands(World::Impl& w) {
 }
 
 void joinPushed(const World::Impl& w, Islands& islands) {
-  for (const ContactPair& pair : w.contacts.pairs) {
-    if (!pair.given.isZero(0)) join(w.bodies, islands, pair.a, pair.b);
-  }
+  forEachPush(w.contacts,
+              [&](const ContactPair& pair) { join(w.bodies, islands, pair.a, pair.b); });
 }
 
 void settle(Islands& islands, std::span<const BodyId> bodies) {

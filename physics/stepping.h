@@ -20,18 +20,11 @@ struct Allowed {
   bool symmetric = false;  // it is free to move, and the substep resolves its motion
 };
 
-// Two bodies that a contact moved, and what it changed of their relative speed in all [m/s].
-struct Meeting {
-  BodyId a, b;
-  double speed;
-};
-
 struct Stepper {
   std::vector<BodyId> island;    // by body: the first body of its island in this substep
   std::vector<Allowed> allowed;  // by body
   std::vector<bool> smooth;      // by body: no velocity jumped in this substep
   std::vector<bool> parted;      // by body: a contact that bore load bears none now
-  std::vector<Meeting> lost;     // contacts of this substep that may not be found any more
   std::vector<bool> unresolved;  // by body: the symmetric scheme would not resolve its motion
   std::vector<bool> bounded;     // by body: it touches, or is held by a limit
   std::vector<Scheme> tried;     // scratch: by body, before schemes were lowered

@@ -53,11 +53,10 @@ void solveOnce(World::Impl& w, double h, StepReport& report) {
   }
 }
 
-// Contacts that moved something and may not be found again.
-void keepLost(World::Impl& w) {
-  if (!isSecondOrder(w.settings)) return;
-  for (const ContactPair& pair : w.contacts.pairs) {
-    if (!pair.given.isZero(0)) w.stepper.lost.push_back(meetingOf(w, pair));
+// Contacts that pushed and may not be found again.
+void keepLost(Contacts& contacts) {
+  for (const ContactPair& pair : contacts.pairs) {
+    if (!pair.given.isZero(0)) contacts.lost.push_back(pair);
   }
 }
 
@@ -66,7 +65,7 @@ void solveConstraints(World::Impl& w, double h, StepReport& report) {
   // A body that was hit may have left the bounds in which contacts were looked for: look where it
   // went.
   for (int look = 1; look < kMostLooks && !report.notFinite && contactsOutdated(w); ++look) {
-    keepLost(w);
+    keepLost(w.contacts);
     if (!findContacts(w, w.bodies.pose)) return;
     for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
     solveOnce(w, h, report);
@@ -81,8 +80,8 @@ bool goesOn(const World::Impl& w, const StepReport& report) {
 // From X^t, v^t to the displaced poses, by the schemes as they stand.
 void displaceAll(World::Impl& w, int k, double h, StepReport& report) {
   turnTo("motion");
+  w.contacts.lost.clear();
   if (isSecondOrder(w.settings)) {
-    w.stepper.lost.clear();
     moveFreelySecondOrder(w.bodies, w.loads, w.settings.gravity, h);
   } else {
     moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)

@@ -25,11 +25,12 @@ std::size_t bytesOf(const SecondOrder& s) {
 
 std::size_t bytesOf(const Stepper& s) {
   return bytesOf(s.island) + bytesOf(s.allowed) + bytesOf(s.smooth) + bytesOf(s.parted) +
-         bytesOf(s.lost) + bytesOf(s.unresolved) + bytesOf(s.bounded) + bytesOf(s.tried) +
-         bytesOf(s.ratio);
+         bytesOf(s.unresolved) + bytesOf(s.bounded) + bytesOf(s.tried) + bytesOf(s.ratio);
 }
 
-std::size_t bytesOf(const Contacts& c) { return bytesOf(c.pairs) + bytesOf(c.previous); }
+std::size_t bytesOf(const Contacts& c) {
+  return bytesOf(c.pairs) + bytesOf(c.previous) + bytesOf(c.lost);
+}
 
 std::size_t bytesOf(const Sleep& s) {
   return bytesOf(s.still) + bytesOf(s.asleep) + bytesOf(s.island) + bytesOf(s.called) +

@@ -55,7 +55,18 @@ struct ContactPair {
 
 struct Contacts {
   std::vector<ContactPair> pairs, previous;  // sorted by (a, b)
+  std::vector<ContactPair> lost;  // pushed in this substep, before contacts were looked for anew
 };
+
+// visit(pair) for all that pushed in this substep; those found again may come twice.
+template <class F>
+void forEachPush(const Contacts& contacts, F&& visit) {
+  for (const auto* pairs : {&contacts.pairs, &contacts.lost}) {
+    for (const ContactPair& pair : *pairs) {
+      if (!pair.given.isZero(0)) visit(pair);
+    }
+  }
+}
 
 // Takes over what the collider found; multipliers and slips go on where pair and feature are the
 // same.

@@ -31,6 +31,11 @@ struct Visit {
 // overlap smaller than this. Errors that small are not worth setting a body in motion.
 constexpr double kTouching = 1e-4;  // m
 
+// How often over a contact may push to take back its own overlap. Overlaps that contradict each
+// other (a box over-full) would push without bounds, and the last visited would win; so they push
+// in proportion to their depth.
+constexpr double kFirmness = 6;
+
 Visit beginVisit(const ContactPair& pair, const Bodies& bodies) {
   Visit visit;
   visit.rotationA = bodies.pose[pair.a].q.toRotationMatrix();
@@ -105,7 +110,8 @@ void solveNormal(ContactPointState& p, double gap, const Direction& row, double 
     const double already = corrected(visit, row);
     const double error =
         std::max(p.gapAtStart + kTouching, -allowance) + already + moved(visit, row, visit.once);
-    const double next = std::max(p.normalOnce - xi * error / row.resistance, 0.0);
+    const double most = kFirmness * std::max(allowance, -p.gapAtStart) / row.resistance;
+    const double next = std::clamp(p.normalOnce - xi * error / row.resistance, 0.0, most);
     add(visit.once, row, next - p.normalOnce);
     p.normalOnce = next;
     c -= already;

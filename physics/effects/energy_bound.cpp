@@ -16,11 +16,13 @@ namespace physics {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of the kinetic energy: no gain
-constexpr double kWhirl = 0.5;      // a turn in one substep that contacts' directions miss [rad]
+// Of m (g h)^2: no gain where nothing is joined. Bodies that settle on each other gain and lose by
+// what their sweeps leave; without it a tower of one sweep topples.
+constexpr double kSettling = 50;
 
 // One island: what it weighs, how it moves, and what it may have of energy.
 struct Whole {
-  bool jointed = false, whirls = false, pushed = false, driven = false;
+  bool jointed = false, pushed = false, driven = false, bounded = false;
   double mass = 0, kinetic = 0, allowed = 0;
   Vec3 centre = Vec3::Zero(), momentum = Vec3::Zero(), spin = Vec3::Zero();
   Mat3 inertia = Mat3::Zero();
@@ -39,16 +41,29 @@ double kineticEnergy(const Bodies& b, BodyId i) {
          0.5 * velocity.w.dot(angularMomentum(b, i, velocity.w));
 }
 
-bool whirls(const Bodies& b, BodyId i, double h) { return h * b.velocity[i].w.norm() > kWhirl; }
+// Its kinetic energy at the start, and what gravity and loads did [J].
+double allowedOf(const World::Impl& w, BodyId i, double h) {
+  const Velocity& velocity = w.bodies.velocity[i];
+  const Vec3 force =
+      w.bodies.mass[i] * w.settings.gravity.value_or(Vec3::Zero()) + w.loads[i].force;
+  return w.kineticBefore[i] + h * (force.dot(velocity.v) + w.loads[i].torque.dot(velocity.w));
+}
 
-// Whether some island can have: most heaps have nothing joined, and nothing that whirls.
+// What a mass may gain where nothing is joined [J].
+double settling(const World::Impl& w, double mass, double h) {
+  const Vec3 g = w.settings.gravity.value_or(Vec3::Zero());
+  return kSettling * mass * h * h * g.squaredNorm();
+}
+
+// Whether some island can have: one that gains too much has a body that does.
 bool mayGain(const World::Impl& w, double h) {
-  const auto& pairs = w.contacts.pairs;
+  bool pushes = false;
+  forEachPush(w.contacts, [&](const ContactPair&) { pushes = true; });
   const std::vector<BodyId>& active = w.bodies.active;
-  return std::any_of(pairs.begin(), pairs.end(),
-                     [](const ContactPair& pair) { return !pair.given.isZero(0); }) &&
-         (!onlyContacts(w) || std::any_of(active.begin(), active.end(),
-                                          [&](BodyId i) { return whirls(w.bodies, i, h); }));
+  const auto gains = [&](BodyId i) {
+    return kineticEnergy(w.bodies, i) - allowedOf(w, i, h) > settling(w, w.bodies.mass[i], h);
+  };
+  return pushes && (!onlyContacts(w) || std::any_of(active.begin(), active.end(), gains));
 }
 
 // What joints and this substep's contacts join.
@@ -77,14 +92,13 @@ double workOf(const C& item, const Multipliers<C>& lambda, const Bodies& bodies,
 // What contacts move, and what joins it and does work on it. What moved bodies do is not known:
 // their islands are left alone.
 void mark(World::Impl& w, const Islands& islands, double h, std::vector<Whole>& wholes) {
-  for (const ContactPair& pair : w.contacts.pairs) {
-    if (pair.given.isZero(0)) continue;
+  forEachPush(w.contacts, [&](const ContactPair& pair) {
     for (const BodyId body : {pair.a, pair.b}) {
       wholes[islands[body]].pushed = true;
       if (w.bodies.motion[body] != Motion::kKinematic) continue;
       wholes[islands[pair.a]].driven = wholes[islands[pair.b]].driven = true;
     }
-  }
+  });
   for (const BodyId i : w.bodies.active) {
     if (w.bodies.motion[i] == Motion::kKinematic) wholes[islands[i]].driven = true;
   }
@@ -102,23 +116,20 @@ void mark(World::Impl& w, const Islands& islands, double h, std::vector<Whole>& 
 
 void sumUp(const World::Impl& w, const Islands& islands, double h, std::vector<Whole>& wholes) {
   const Bodies& b = w.bodies;
-  const Vec3 gravity = w.settings.gravity.value_or(Vec3::Zero());
   for (const BodyId i : b.active) {
     Whole& whole = wholes[islands[i]];
     whole.mass += b.mass[i];
     whole.centre += b.mass[i] * b.pose[i].x;
     whole.momentum += b.mass[i] * b.velocity[i].v;
     whole.kinetic += kineticEnergy(b, i);
-    whole.whirls = whole.whirls || whirls(b, i, h);
-    whole.allowed += w.kineticBefore[i] + h * b.mass[i] * gravity.dot(b.velocity[i].v);
-    whole.allowed +=
-        h * (w.loads[i].force.dot(b.velocity[i].v) + w.loads[i].torque.dot(b.velocity[i].w));
+    whole.allowed += allowedOf(w, i, h);
   }
 }
 
-bool gains(const Whole& whole) {
-  return (whole.jointed || whole.whirls) && whole.pushed && !whole.driven &&
-         whole.kinetic - whole.allowed > kRounding * whole.kinetic;
+bool gains(const World::Impl& w, const Whole& whole, double h) {
+  if (!whole.pushed || whole.driven) return false;
+  const double least = kRounding * whole.kinetic + (whole.jointed ? 0 : settling(w, whole.mass, h));
+  return whole.kinetic - whole.allowed > least;
 }
 
 // The rigid motion of the same momenta; none about an axis that nothing is away from.
@@ -182,14 +193,15 @@ int boundEnergy(World::Impl& w, double h) {
   sumUp(w, islands, h, wholes);
   int bounded = 0;
   for (const BodyId i : w.bodies.active) {
-    if (islands[i] != i || !gains(wholes[i])) continue;
+    if (islands[i] != i || !gains(w, wholes[i], h)) continue;
+    wholes[i].bounded = true;
     findRigidPart(w, islands, i, wholes[i]);
     findFactors(wholes[i]);
     ++bounded;
   }
   if (bounded == 0) return 0;
   for (const BodyId i : w.bodies.active) {
-    if (gains(wholes[islands[i]])) scale(w.bodies, i, wholes[islands[i]]);
+    if (wholes[islands[i]].bounded) scale(w.bodies, i, wholes[islands[i]]);
   }
   return bounded;
 }

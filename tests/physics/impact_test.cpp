@@ -108,5 +108,40 @@ TEST(Overlap, IsUndoneAtTheSeparationSpeedAndLeavesNone) {
   EXPECT_LT(measure(world).kinetic, 1e-20);
 }
 
+// Twenty-seven balls in a box that holds them only overlapped: none is pushed through a wall for
+// the others, none through another.
+TEST(Overlap, ThatCannotVanishIsShared) {
+  Settings settings;
+  settings.contact = ContactSettings{};
+  settings.iterations = 4;
+  World world(settings);
+  constexpr double kHalf = 0.25, kRadius = 0.1;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      BodyDef wall;
+      wall.shape = Plane{side * Vec3::Unit(axis), -kHalf};
+      wall.motion = Motion::kStatic;
+      world.add(wall);
+    }
+  }
+  std::vector<BodyId> balls;
+  for (int i = 0; i < 27; ++i) {
+    BodyDef ball;
+    ball.shape = Sphere{kRadius};
+    ball.pose.x =
+        0.15 * Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1) + 1e-3 * Vec3(i % 5, i % 7, i % 4);
+    balls.push_back(world.add(ball));
+  }
+  for (int k = 0; k < 240; ++k) world.step();
+  const auto& pose = world.bodies().pose;
+  for (const BodyId a : balls) {
+    EXPECT_LT(pose[a].x.cwiseAbs().maxCoeff(), kHalf - 0.6 * kRadius);
+    EXPECT_LT(world.bodies().velocity[a].v.norm(), settings.contact->maxSeparationSpeed);
+    for (const BodyId b : balls) {
+      EXPECT_TRUE(a == b || (pose[a].x - pose[b].x).norm() > 1.2 * kRadius);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace physics::testing
