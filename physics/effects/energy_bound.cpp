@@ -1,4 +1,4 @@
-// The bound on the energy of joined bodies in contact.
+// The bound on the energy of bodies in contact.
 #include "physics/effects/energy_bound.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,11 +1,12 @@
-// A substep of joined bodies in contact, or of bodies that a hit turns far, gains no energy.
+// A substep of bodies in contact gains no energy.
 // Backward Euler's own steps obey
 //   K' - K <= h sum m g.v' + sum lambda J v' / h,  over forces and motors
 // where its constraints hold at both ends; sweeps that leave errors behind, which the next substep
 // takes for motion, do not. Where an island has gained, its motion relative to its rigid part is
 // scaled, v <- V + s (v - V) with V of the same linear and angular momentum: both are kept, joints
 // that hold go on holding. What static bodies gave is scaled as well where that does not suffice.
-// Islands with kinematic bodies are left alone: what those do is not known.
+// Islands with kinematic bodies are left alone: what those do is not known. Where nothing is joined
+// small gains are left as well, for bodies that settle on each other.
 #pragma once
 
 #include "physics/world.h"
