@@ -14,11 +14,17 @@ Vec3 slipLeft(const ContactPointState& p, const Vec3& n, const Pose& a, const Po
   return dp - dp.dot(n) * n;
 }
 
+// Contacts that are this deep press on each other from all sides, and what they press balances
+// itself: it does no work that would use it up, and would grow with every error of the sweeps.
+constexpr double kDeep = 1e-3;   // m
+constexpr double kFading = 0.9;  // how much of it a substep begins with
+
 // How much of the last multiplier is likely to be needed again. One that is more than twice what it
 // was a substep earlier was an impact, which is over: then what there was before it.
 double lastingShare(const ContactPointState& p, double farthest) {
   if (farthest == 0) return 0;
-  const double share = std::min(1.0, farthest / (p.resistance * p.normalTotal));
+  const double most = p.gapAtStart < -kDeep ? kFading : 1;
+  const double share = std::min(most, farthest / (p.resistance * p.normalTotal));
   if (p.normalTotal <= 2 * p.normalBefore || p.settled) return share;
   return std::min(share, p.normalBefore / p.normalTotal);
 }

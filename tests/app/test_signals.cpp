@@ -127,7 +127,7 @@ TEST_F(Signals, GoldenImagesAreNotJudgedOrReplacedFromHalfAMotion) {
   writeText(folder / "long.toml", text);
   for (const char* command : {"golden check long.toml --goldens g -o out",
                               "golden update long.toml --goldens g --reason r"}) {
-    const Outcome outcome = run(command, "timeout --preserve-status -s TERM 1");
+    const Outcome outcome = run(command, "timeout --foreground --preserve-status -s TERM 1");
     EXPECT_EQ(outcome.code, 130) << command << outcome.errors;
     EXPECT_EQ(outcome.output.find("FAIL"), std::string::npos) << outcome.output;
     EXPECT_FALSE(fs::exists(folder / "g"));
