@@ -1,5 +1,6 @@
 // Contact: the start of a substep.
 #include <algorithm>
+#include <cmath>
 
 #include "physics/constraints/contact.h"
 #include "physics/rotation.h"
@@ -16,6 +17,7 @@ Vec3 slipLeft(const ContactPointState& p, const Vec3& n, const Pose& a, const Po
 
 // Contacts that are this deep press on each other from all sides, and what they press balances
 // itself: it does no work that would use it up, and would grow with every error of the sweeps.
+// First guesses that are bounded by `farthest` are so already.
 constexpr double kDeep = 1e-3;   // m
 constexpr double kFading = 0.9;  // how much of it a substep begins with
 
@@ -23,7 +25,7 @@ constexpr double kFading = 0.9;  // how much of it a substep begins with
 // was a substep earlier was an impact, which is over: then what there was before it.
 double lastingShare(const ContactPointState& p, double farthest) {
   if (farthest == 0) return 0;
-  const double most = p.gapAtStart < -kDeep ? kFading : 1;
+  const double most = p.gapAtStart < -kDeep && std::isinf(farthest) ? kFading : 1;
   const double share = std::min(most, farthest / (p.resistance * p.normalTotal));
   if (p.normalTotal <= 2 * p.normalBefore || p.settled) return share;
   return std::min(share, p.normalBefore / p.normalTotal);
