@@ -57,8 +57,10 @@ double settling(const World::Impl& w, double mass, double h) {
 
 // Whether some island can have: one that gains too much has a body that does.
 bool mayGain(const World::Impl& w, double h) {
-  bool pushes = false;
-  forEachPush(w.contacts, [&](const ContactPair&) { pushes = true; });
+  const std::vector<ContactPair>& pairs = w.contacts.pairs;
+  const bool pushes = !w.contacts.lost.empty() ||
+                      std::any_of(pairs.begin(), pairs.end(),
+                                  [](const ContactPair& pair) { return !pair.given.isZero(0); });
   const std::vector<BodyId>& active = w.bodies.active;
   const auto gains = [&](BodyId i) {
     return kineticEnergy(w.bodies, i) - allowedOf(w, i, h) > settling(w, w.bodies.mass[i], h);
