@@ -29,7 +29,7 @@ class Search {
   }
 
  private:
-  // False: interrupted, or nothing to search.
+  // False: stopped, or nothing to search.
   bool bracket() {
     const std::optional<bool> stated = tryLevel(severity_.stated);
     if (!stated) return false;
@@ -39,7 +39,7 @@ class Search {
   }
 
   void bisect() {
-    while (!border_.interrupted && trialCount() < kMostTrials - kControls) {
+    while (!border_.stopped && trialCount() < kMostTrials - kControls) {
       conclude();
       if (!border_.holds || !border_.fails) return;
       const double low = severity_.placeOf(*border_.holds),
@@ -60,7 +60,7 @@ class Search {
     for (const SeverityTrial& trial : border_.trials) {
       low = std::min(low, severity_.placeOf(trial.level));
     }
-    for (int k = 1; k <= kControls && !border_.interrupted; ++k) {
+    for (int k = 1; k <= kControls && !border_.stopped; ++k) {
       const double level = severity_.levelAt(low + (high - low) * k / (kControls + 1));
       const double place = severity_.placeOf(level);
       if (place > low && place < high && !isTried(level)) tryLevel(level);
@@ -72,7 +72,7 @@ class Search {
     if (holds) {
       border_.trials.push_back({level, *holds});
     } else {
-      border_.interrupted = true;
+      border_.stopped = true;
     }
     return holds;
   }

@@ -103,8 +103,9 @@ void drawBar(const StabilitySeverity& severity, const StabilityBar& bar, double 
   }
   if (border.fails) {
     const double place = severity.placeOf(*border.fails);
+    out.line(end, y, place, y, fmt::format("lw 1 dt (2,3) lc {}", color));
     out.text(place, y, "×", fmt::format("center font ',14' textcolor rgb '#b3261e'"));
-  } else if (border.holds) {
+  } else if (end >= 1) {
     out.arrow(1, y, 1.02, y, fmt::format("lw 1.5 lc {}", color));
   }
   out.text(1.035, y, plotText(borderText(bar)), "left font ',9' textcolor rgb '#303030'");
@@ -160,10 +161,14 @@ std::string failureText(const StabilityRun& run) {
 
 std::string borderText(const StabilityBar& bar) {
   const SeverityBorder& border = bar.border;
-  if (!border.fails) return border.holds ? "holds to the end of the range" : "not tried";
+  if (!border.fails) {
+    if (!border.holds) return "not tried";
+    return bar.isSpent ? "not tried beyond: too much work" : "holds to the end of the range";
+  }
   std::string text = bar.firstFailure ? failureText(*bar.firstFailure) : "fails";
   text = fmt::format("at {}: {}", levelText(*border.fails), text);
   if (border.holdsBeyond) text += fmt::format(" (holds at {})", levelText(*border.holdsBeyond));
+  if (bar.isSpent) text += "; search cut short";
   return text;
 }
 
@@ -178,7 +183,8 @@ std::string mapScript(const std::vector<const StabilityResult*>& cases, const st
   drawing.text(kFarLeft, 0.7, plotText(title), "left font ',14'");
   drawing.text(
       kFarLeft, 1.9,
-      "Bars: the criterion holds. ×: the easiest level that failed, and what failed first. "
+      "Bars: the criterion holds. ×: the easiest level that failed, and what failed first; dotted: "
+      "not tried. "
       "Dashed: the stated level. {/:Bold Bold}: the family's settings.",
       "left font ',9' textcolor rgb '#505050'");
   const int height = static_cast<int>(kLine * y);

@@ -101,6 +101,8 @@ std::string barRow(const StabilityBar& bar) {
   if (bar.border.holdsBeyond) {
     what += fmt::format(" (not monotone: holds again at {})", levelText(*bar.border.holdsBeyond));
   }
+  if (bar.isSpent)
+    what += fmt::format("{}(search cut short: too much work)", what.empty() ? "" : " ");
   return fmt::format(
       "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td>"
       "<td>{}</td></tr>\n",

@@ -21,6 +21,7 @@ using scenes::StabilityCase;
 
 constexpr double kMostStatedRuns = 10;      // a level may cost as much work as so many stated runs
 constexpr double kLeastWorkPerFrame = 1e4;  // and this in any case
+constexpr double kMostWorkOfSearch = 1e8;   // no further level is tried after so much
 
 // "simulation.method=direct" says what the family says, or what is the default.
 bool isOwn(const scenes::Value& settings, const std::string& setting) {
@@ -40,6 +41,12 @@ bool isOwn(const scenes::StabilityFamily& family, const std::vector<std::string>
 const fs::path& madeFolder(const fs::path& folder) {
   makeFolder(folder);
   return folder;
+}
+
+// Of the case's duration, what a run that searches lasts.
+double searchedShare(const StabilityCase& study) {
+  const std::optional<double>& duration = study.severity->duration;
+  return duration ? *duration / scenes::stabilityScene(study, {}).duration : 1;
 }
 
 std::string endFile(const StabilityRun& run) {
@@ -183,15 +190,20 @@ bool StabilityStudy::judge(const std::function<void(const StabilityResult&)>& do
 
 bool StabilityStudy::searchBar(const StabilityResult& result, StabilityBar& bar) {
   const scenes::StabilitySeverity& severity = *result.study.severity;
-  const double frames = std::max(1, result.stated.frames);
+  const StabilityRun& stated = result.stated;
+  const double leastWork = kLeastWorkPerFrame * std::max(1, stated.frames);
   const StabilityLimits limits{
-      true, kMostStatedRuns * std::max(result.stated.work, kLeastWorkPerFrame * frames)};
+      true, kMostStatedRuns * searchedShare(result.study) * std::max(stated.work, leastWork)};
   std::vector<StabilityRun> runs;
+  double work = 0;
   const auto judge = [&](double level) -> std::optional<bool> {
+    bar.isSpent = work > kMostWorkOfSearch;
+    if (bar.isSpent) return std::nullopt;
     const std::vector<std::string> set = overridesOf(bar.way, severity, level);
     const StabilityKey key{result.study.name, bar.way.method, fmt::format("{}", level)};
     auto run = runOf(result, key, set, limits, [](const scenes::Simulation&, bool) {});
     if (!run) return std::nullopt;
+    work += run->work;
     runs.push_back(std::move(*run));
     return runs.back().holds();
   };
@@ -203,7 +215,7 @@ bool StabilityStudy::searchBar(const StabilityResult& result, StabilityBar& bar)
     bar.firstFailure = *found;
     bar.shots = planFailureShots(*found);
   }
-  return !bar.border.interrupted;
+  return bar.isSpent || !bar.border.stopped;
 }
 
 bool StabilityStudy::search() {
@@ -216,10 +228,11 @@ bool StabilityStudy::search() {
   for (StabilityResult& result : results_) {
     if (!result.problem.empty() || !result.study.severity) continue;
     result.bars.clear();
+    const double seconds = result.stated.seconds * searchedShare(result.study);
     for (const StabilityWay& way : waysOf(result.study)) {
       tasks.push_back({&result, result.bars.size()});
-      work.push_back(result.stated.seconds);
-      result.bars.push_back({way, {}, std::nullopt, {}});
+      work.push_back(seconds);
+      result.bars.push_back({way, {}, false, std::nullopt, {}});
     }
   }
   return runLongestFirst("searching borders", work, [&](std::size_t i) {

@@ -27,6 +27,7 @@ std::vector<std::string> overridesOf(const StabilityWay& way,
 struct StabilityBar {
   StabilityWay way;
   SeverityBorder border;
+  bool isSpent = false;                      // stopped: the search had cost all it may
   std::optional<StabilityRun> firstFailure;  // the run at border.fails
   std::vector<StabilityShot> shots;          // of that run
 };

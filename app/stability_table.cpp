@@ -57,7 +57,9 @@ std::string severityText(const StabilityResult& result) {
   for (const StabilityBar& bar : result.bars) {
     const std::string holds =
         bar.border.holds ? "holds to " + levelText(*bar.border.holds) : "holds nowhere";
-    const std::string fails = bar.border.fails ? ", fails " + borderText(bar) : "";
+    const std::string fails = bar.border.fails ? ", fails " + borderText(bar)
+                              : bar.isSpent    ? ", " + borderText(bar)
+                                               : "";
     text += fmt::format("      {:<34} {}{}\n", bar.way.title, holds, fails);
   }
   return text;
@@ -90,19 +92,19 @@ std::string casesTable(const std::vector<StabilityResult>& results) {
 std::string severityTable(const std::vector<StabilityResult>& results) {
   std::string table =
       "case,method,label,unit,from,to,stated,holds,fails,holds_beyond,trials,what,bodies,"
-      "constraint,frame\n";
+      "constraint,frame,cut_short\n";
   for (const StabilityResult& result : results) {
     for (const StabilityBar& bar : result.bars) {
       const scenes::StabilitySeverity& s = *result.study.severity;
       const SeverityBorder& b = bar.border;
       StabilityFailure failure;
       if (bar.firstFailure) failure = bar.firstFailure->failure.value_or(failure);
-      table += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{},{},{},{},{},{},{},{}\n",
-                           result.study.name, bar.way.method.empty() ? "family" : bar.way.method,
-                           cell(s.label), cell(s.unit), s.from, s.to, s.stated, number(b.holds),
-                           number(b.fails), number(b.holdsBeyond), b.trials.size(),
-                           cell(failure.what), cell(failure.bodies), cell(failure.constraint),
-                           bar.firstFailure ? std::to_string(failure.frame) : "");
+      table += fmt::format(
+          "{},{},{},{},{:.9g},{:.9g},{:.9g},{},{},{},{},{},{},{},{},{}\n", result.study.name,
+          bar.way.method.empty() ? "family" : bar.way.method, cell(s.label), cell(s.unit), s.from,
+          s.to, s.stated, number(b.holds), number(b.fails), number(b.holdsBeyond), b.trials.size(),
+          cell(failure.what), cell(failure.bodies), cell(failure.constraint),
+          bar.firstFailure ? std::to_string(failure.frame) : "", bar.isSpent ? 1 : 0);
     }
   }
   return table;

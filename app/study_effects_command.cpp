@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "app/console.h"
+#include "app/gnuplot.h"
 #include "app/html.h"
 #include "app/machine.h"
 #include "app/output_file.h"
 #include "app/progress.h"
 #include "app/study_commands.h"
 #include "app/study_effects.h"
-#include "app/gnuplot.h"
 
 namespace app {
 

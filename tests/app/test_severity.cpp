@@ -5,6 +5,7 @@
 
 #include "app/severity_search.h"
 #include "app/stability_map.h"
+#include "app/stability_page.h"
 
 namespace app {
 namespace {
@@ -111,14 +112,35 @@ TEST(SeverityMap, HasABarForEachMethodAndNamesWhatFails) {
   EXPECT_EQ(mapScript({&result}, "Family", "map"), "");
 }
 
-TEST(SeveritySearch, EndsWhereItIsInterrupted) {
+TEST(SeverityMap, SaysWhereASearchWasCutShort) {
+  StabilityBar bar;
+  bar.way = {"", "direct", "#0072b2", {}};
+  EXPECT_EQ(borderText(bar), "not tried");
+  bar.border.holds = 1000;
+  EXPECT_EQ(borderText(bar), "holds to the end of the range");
+  bar.isSpent = true;
+  EXPECT_EQ(borderText(bar), "not tried beyond: too much work");
+  bar.border.fails = 2e4;
+  EXPECT_EQ(borderText(bar), "at 20000: fails; search cut short");
+
+  StabilityResult result;
+  result.study.severity = severityOf(1, 1000, 1e6);
+  result.bars.push_back(bar);
+  EXPECT_NE(severityText(result).find("search cut short"), std::string::npos);
+  result.bars[0].border.fails.reset();
+  EXPECT_NE(severityText(result).find("holds to 1000, not tried beyond"), std::string::npos);
+  const std::string script = mapScript({&result}, "Family", "map");
+  EXPECT_EQ(script.find("head filled"), std::string::npos) << "an arrow past the end of the range";
+}
+
+TEST(SeveritySearch, EndsWhereItIsStopped) {
   int trials = 0;
   const SeverityBorder found =
       searchSeverity(severityOf(1, 3, 1e6), [&](double) -> std::optional<bool> {
         if (++trials == 4) return std::nullopt;
         return true;
       });
-  EXPECT_TRUE(found.interrupted);
+  EXPECT_TRUE(found.stopped);
   EXPECT_EQ(trials, 4);
 }
 
