@@ -143,6 +143,9 @@ std::string summary(const scenes::Scene& scene, const RenderJob& job, const Rend
   const Json& seconds = result.record.seconds;
   std::string text = fmt::format("{}: {} frames drawn", scene.name, result.drawn);
   if (result.kept > 0) text += fmt::format(", {} kept from before", result.kept);
+  if (const double camera = seconds.value("camera", 0.0); camera >= 0.005) {
+    text += fmt::format("; find the camera {:.2f} s", camera);
+  }
   text += fmt::format(
       "; simulate {:.2f} s, draw {:.2f} s, write {:.2f} s on {} threads, {:.2f} s in all\n",
       seconds.value("simulate", 0.0), seconds.value("draw", 0.0), seconds.value("write", 0.0),

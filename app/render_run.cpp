@@ -64,7 +64,6 @@ class Drawing {
         }) {}
 
   void run(RenderResult& result) {
-    const Stopwatch watch;
     try {
       playAndDraw(result);
     } catch (const CheckFailed& error) {
@@ -74,7 +73,7 @@ class Drawing {
     const bool whole = result.end.frames == simulation_.scene().frameCount();
     if (whole) result.record.expectations = describeVerdicts(checker_.verdicts());
     result.record.finished = result.end.code == ExitCode::kDone;
-    addSeconds(result.record, watch.seconds());
+    addSeconds(result.record);
   }
 
  private:
@@ -117,16 +116,12 @@ class Drawing {
     return before.empty() || before == now;
   }
 
-  void addSeconds(RunRecord& record, double wall) const {
+  void addSeconds(RunRecord& record) const {
     const DrawSeconds drawing = pipeline_.seconds();
-    const auto add = [&record](const char* stage, double seconds) {
-      record.seconds[stage] = record.seconds.value(stage, 0.0) + seconds;
-    };
-    add("simulate", simulateSeconds_);
-    add("view", viewSeconds_);
-    add("draw", drawing.draw);
-    add("write", drawing.write);
-    add("wall", wall);
+    record.addSeconds("simulate", simulateSeconds_);
+    record.addSeconds("view", viewSeconds_);
+    record.addSeconds("draw", drawing.draw);
+    record.addSeconds("write", drawing.write);
   }
 
   const RenderJob& job_;
@@ -168,12 +163,15 @@ RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job) {
   }
   result.record.finished = false;
   writeRecord(result.record, job.folder);
+  const Stopwatch watch;
   const scenes::MotionBounds bounds = findBounds(scene, scene.frameCount(), job.progress);
+  if (scenes::needsMotionBounds(scene)) result.record.addSeconds("camera", watch.seconds());
   if (interrupted()) {
     result.end.code = ExitCode::kInterrupted;
     return result;
   }
   Drawing(scene, job, frames, bounds).run(result);
+  result.record.addSeconds("wall", watch.seconds());
   writeRecord(result.record, job.folder);
   return result;
 }

@@ -60,7 +60,7 @@ std::string showExpectations(const RunRecord& record) {
 std::string showTimes(const RunRecord& record) {
   const double frames = static_cast<double>(std::max<std::size_t>(1, record.stateHashes.size()));
   std::string html = "<table><tr><th>time spent</th><th></th><th>per frame</th></tr>\n";
-  for (const char* stage : {"simulate", "view", "draw", "write", "film", "wall"}) {
+  for (const char* stage : {"camera", "simulate", "view", "draw", "write", "film", "wall"}) {
     if (!record.seconds.contains(stage)) continue;
     const double seconds = record.seconds.value(stage, 0.0);
     html += fmt::format(

@@ -46,6 +46,10 @@ Json describeSettings(const scenes::Scene& scene) {
 
 }  // namespace
 
+void RunRecord::addSeconds(const std::string& stage, double more) {
+  if (more > 0) seconds[stage] = seconds.value(stage, 0.0) + more;
+}
+
 bool RunRecord::sameStates(const RunRecord& other) const {
   return program == other.program && scene == other.scene && settings == other.settings;
 }

@@ -24,6 +24,7 @@ struct RunRecord {
   Json video;                            // the film and its frames; null: none
   bool finished = false;                 // all that was asked for is written
 
+  void addSeconds(const std::string& stage, double more);
   bool sameStates(const RunRecord& other) const;
   bool sameFrames(const RunRecord& other) const;
 };
