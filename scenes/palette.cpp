@@ -55,13 +55,12 @@ std::optional<render::Color> namedColor(const std::string& text) {
     if (text == hue.name) return opaque(hue.plain);
   }
   if (text == "grey") return fixedColor();
-  unsigned r = 0, g = 0, b = 0;
-  char rest = 0;
-  if (text.size() != 7 || std::sscanf(text.c_str(), "#%2x%2x%2x%c", &r, &g, &b, &rest) != 3) {
-    return std::nullopt;
-  }
+  const bool isHex = text.starts_with('#') && (text.size() == 7 || text.size() == 9) &&
+                     text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+  unsigned r = 0, g = 0, b = 0, a = 255;
+  if (!isHex || std::sscanf(text.c_str(), "#%2x%2x%2x%2x", &r, &g, &b, &a) < 3) return std::nullopt;
   const auto unit = [](unsigned value) { return static_cast<float>(value) / 255.0f; };
-  return render::Color{unit(r), unit(g), unit(b), 1};
+  return render::Color{unit(r), unit(g), unit(b), unit(a)};
 }
 
 std::vector<std::string> colorNames() {

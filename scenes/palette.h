@@ -22,7 +22,7 @@ enum class Pattern {
 render::Color familyColor(Pattern pattern, int hue, int index, int row = 0);
 render::Color fixedColor();
 
-// "#rrggbb" or the name of a hue.
+// "#rrggbb", "#rrggbbaa" or the name of a hue.
 std::optional<render::Color> namedColor(const std::string& text);
 std::vector<std::string> colorNames();
 

@@ -105,18 +105,22 @@ void readColor(TableReader& reader, std::optional<render::Color>& color) {
   const Value* value = reader.take("color");
   if (value == nullptr) return;
   const Spot spot = reader.spot(Field{"color", Unit::kNone, false, 0, 1});
-  if (value->isArray()) {
-    Vec3 rgb = Vec3::Zero();
-    readValue(*value, spot, rgb);
-    color = render::Color(static_cast<float>(rgb.x()), static_cast<float>(rgb.y()),
-                          static_cast<float>(rgb.z()), 1);
+  const std::size_t count = value->items.size();
+  if (value->isArray() && (count == 3 || count == 4)) {
+    std::vector<double> parts;
+    readValue(*value, spot, parts);
+    color = render::Color(0, 0, 0, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      (*color)[static_cast<Eigen::Index>(i)] = static_cast<float>(parts[i]);
+    }
     return;
   }
   if (value->isString()) color = namedColor(value->text);
   if (!color) {
-    failExpected(spot, *value,
-                 "[r, g, b] in [0, 1], '#rrggbb' or the name of a colour" +
-                     std::string(value->isString() ? didYouMean(value->text, colorNames()) : ""));
+    failExpected(
+        spot, *value,
+        "[r, g, b] or [r, g, b, a] in [0, 1], '#rrggbb', '#rrggbbaa' or the name of a colour" +
+            std::string(value->isString() ? didYouMean(value->text, colorNames()) : ""));
   }
 }
 

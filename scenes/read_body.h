@@ -14,7 +14,8 @@ void readRope(TableReader& reader, Recipe& recipe);
 void readCloth(TableReader& reader, Recipe& recipe);
 void readSoftBody(TableReader& reader, Recipe& recipe);
 
-// color = [r, g, b], "#rrggbb" or a hue's name.
+// color = [r, g, b], "#rrggbb" or a hue's name; with a fourth part what shows through: [r, g, b, a]
+// or "#rrggbbaa", where 1 and ff are opaque.
 void readColor(TableReader& reader, std::optional<render::Color>& color);
 
 }  // namespace scenes

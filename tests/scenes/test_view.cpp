@@ -78,6 +78,10 @@ TEST(View, DrawsDiametersOfShapes) {
 TEST(View, TakesTheColourOfTheScene) {
   const render::Picture picture = pictureOf(ball("a") + "color = \"#ff0080\"\n");
   EXPECT_TRUE(picture.instances[0].color.isApprox(render::Color(1, 0, 128.0f / 255, 1)));
+  for (const char* glass : {"\"#ff008033\"", "[1, 0, 0.50196078, 0.2]"}) {
+    const render::Picture seen = pictureOf(ball("a") + "color = " + glass + "\n");
+    EXPECT_TRUE(seen.instances[0].color.isApprox(render::Color(1, 0, 128.0f / 255, 0.2f))) << glass;
+  }
 }
 
 TEST(View, AlternatesTheTonesOfAChain) {
