@@ -2,7 +2,8 @@
 # Installs what is needed, builds everything and runs every test.
 #   ./tests/run.sh                     as it ships, in build/
 #   ./tests/run.sh --sanitize          the same under the address and undefined behaviour sanitizers,
-#                                      and what runs on several threads under the thread sanitizer
+#                                      of the hard cases the quick ones; and what runs on several
+#                                      threads under the thread sanitizer
 # Other options go to CTest: ./tests/run.sh -R Golden
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -28,6 +29,11 @@ if [ -n "$sanitize" ]; then
   "$folder-threads/tests/app/test_threads"
 fi
 build "$folder" all -- ${options[@]+"${options[@]}"}
+if [ -n "$sanitize" ] && [ $# = 0 ]; then
+  say "Testing hard cases"
+  "$folder/dbd" study stability --quick --fresh --quiet -o "$folder/stability_quick"
+  set -- -LE stability
+fi
 say "Testing"
 cd "$folder"
 ctest --output-on-failure -j "$(nproc)" "$@" < /dev/null
