@@ -30,8 +30,9 @@ std::vector<std::string> kindsOf(const std::string& metric) {
 // The bodies of the constraint with that index within its kind.
 std::string bodiesOf(const Sample& s, const physics::KindError& error) {
   if (error.kind == physics::VolumeDef::kWord) {
+    const auto volumes = s.simulation.world().volumes();
     std::string names;
-    for (const BodyId body : s.simulation.world().volumes()[error.worst].bodies) {
+    for (const BodyId body : volumes[error.worst].bodies) {
       names += (names.empty() ? "" : ", ") + s.simulation.bodyName(body);
     }
     return names;

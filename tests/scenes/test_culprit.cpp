@@ -60,6 +60,17 @@ TEST(Culprit, OfAJointErrorIsTheWidestJoint) {
   EXPECT_EQ(verdict.failure->bodies, "a, b");
 }
 
+TEST(Culprit, OfAVolumeErrorIsTheWorstTetrahedron) {
+  const auto verdict = verdictOf(
+      "duration = 0.1\n[simulation]\nfps = 10\n[[soft_body]]\nname = \"tet\"\n"
+      "mesh = \"tetrahedron.mesh\"\nstart_scale = [1, 0.3, 1]\ndensity = 1000\n"
+      "[[expect]]\nmetric = \"volume_error\"\nat_most = 0.1\n");
+  ASSERT_TRUE(verdict.failure);
+  EXPECT_EQ(verdict.failure->frame, 0);
+  EXPECT_EQ(verdict.failure->constraint, "volume 0");
+  EXPECT_EQ(verdict.failure->bodies, "tet.0, tet.1, tet.2, tet.3");
+}
+
 TEST(Culprit, OfAnOverlapIsTheDeepestContact) {
   const auto verdict =
       verdictOf("duration = 0.1\n[contact]\nfriction = 0.5\n[[body]]\nname = \"a\"\n" + kBall +
