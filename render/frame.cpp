@@ -107,7 +107,7 @@ void setProjection(Frame& frame, const Picture& picture) {
     nearest = std::min(nearest, depth - ball.radius);
     farthest = std::max(farthest, depth + ball.radius);
   }
-  farthest = std::max(farthest, 1e-3f) * 1.01f;
+  farthest = std::max(farthest, 1e-30f) * 1.01f;
   frame.nearest = std::max(nearest * 0.99f, farthest * 2e-4f);
   const float n = frame.nearest, f = farthest;
   const float h = 2 * frame.pixelsPerMetre / static_cast<float>(frame.height);
@@ -158,7 +158,7 @@ void setGround(Frame& frame, const Picture& picture) {
   const float begin = 1.5f * picture.focusRadius + 0.5f * distance;
   const float scale = frame.scale;
   frame.block.ground << ground.height, (frame.groundDrawn ? 1.0f : 0.0f),
-      std::max(ground.spacing, 1e-3f), 0.55f * std::max(scale, 0.75f);
+      std::max(ground.spacing, 1e-30f), 0.55f * std::max(scale, 0.75f);
   frame.block.groundFade << picture.focusCenter.x(), picture.focusCenter.z(), begin, 3.2f * begin;
   frame.block.groundColor = ground.color;
 }

@@ -77,7 +77,7 @@ render::Camera fitCamera(const CameraDef& def, const MotionBounds& box, double a
                          double groundHeight) {
   const Frustum f = frustumAlong(def.direction, def.fieldOfViewDegrees, aspect, def.margin);
   Vec3 eye = eyeThatSees(cornersOf(box), f);
-  const double depth = std::max(1e-3, (0.5 * (box.low + box.high) - eye).dot(f.forward));
+  const double depth = std::max(1e-30, (0.5 * (box.low + box.high) - eye).dot(f.forward));
   Vec3 target = eye + depth * f.forward;
   const double lowest = groundHeight + 0.05 * depth;
   const double lift = std::max(0.0, lowest - eye.y());
