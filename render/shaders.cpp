@@ -37,7 +37,7 @@ void main() {
 #else
   gl_Position = toClip * vec4(world, 1.0);
   vWorld = world;
-  vNormal = turned(normalize(normal / max(abs(scale.xyz), vec3(1e-9))));
+  vNormal = turned(normalize(normal / max(abs(scale.xyz), vec3(1e-15))));
   vInShadow = (toShadow * vec4(world + vNormal * shadow.y, 1.0)).xyz;
   vBody = body;
   vEdge = edge;
@@ -89,11 +89,13 @@ out vec4 color;
 // a software rasteriser leaves it as soon as no pixel of a group needs more.
 float lit(float facing, vec3 inShadow) {
   float side = shadow.w, sum = 0.0;
-  int count = facing > 0.0 ? int(side * side) : 0;
+  vec2 middle = abs(inShadow.xy - 0.5);  // beyond the map it is not known: lit
+  int count = facing > 0.0 && max(middle.x, middle.y) < 0.5 ? int(side * side) : 0;
+  float depth = min(inShadow.z, 1.0);
   for (int i = 0; i < count; ++i) {
     float k = i == 0 ? 0.0 : float(count - i), row = floor((k + 0.5) / side);
     vec2 tap = (vec2(k - row * side, row) - 0.5 * (side - 1.0)) * shadow.z;
-    sum += textureLod(shadowMap, vec3(inShadow.xy + tap, inShadow.z), 0.0);
+    sum += textureLod(shadowMap, vec3(inShadow.xy + tap, depth), 0.0);
     if (i == 1 && abs(sum - 1.0) == 1.0) return 0.5 * sum;
   }
   return count > 0 ? sum / float(count) : 1.0;
@@ -196,6 +198,8 @@ void main() {
   float sharp = textureLod(sharpMask, vInShadow, 0.0).r;
   float far = clamp(shadowOfGround.w * wide.g / max(wide.r, 0.004), 0.0, 1.0);
   float dark = 0.36 * mix(sharp, wide.r, far) + 0.16 * wide.r * (1.0 - far);
+  vec2 middle = abs(vInShadow - 0.5);  // blurred, a shadow reaches the border again
+  dark *= clamp((0.5 - max(middle.x, middle.y)) * 40.0, 0.0, 1.0);
   paint *= 1.0 - shadow.x * dark * vec3(1.0, 0.98, 0.95);
   color = vec4(mix(paint, background.rgb, gone), 1.0);
 }

@@ -61,5 +61,32 @@ TEST(Shadow, OfACasterFarAboveTheFocusStillFalls) {
   EXPECT_LT(at(renderer().draw(picture), 80, 60).sum(), empty.sum() - 60);
 }
 
+TEST(Shadow, BeyondTheMapNothingIsInShadow) {
+  Picture picture = bare();
+  picture.focusRadius = 1;
+  picture.camera.eye = {0, 6, 0.1f};
+  picture.light.direction = {1, -1, 0.5f};
+  picture.instances = {box({12, 0.2f, 12}, {0, 0, 0}, {0.7f, 0.7f, 0.7f, 1})};
+  const Image shaded = renderer().draw(picture);
+  picture.light.shadows = false;
+  EXPECT_EQ(renderer().draw(picture), shaded);
+}
+
+// 27 px are a metre of the ground: the box and its shadow end within 2 m of the middle.
+TEST(Shadow, OfACasterAcrossTheBorderOfTheMapEndsThere) {
+  Picture picture = bare();
+  picture.ground.visible = true;
+  picture.ground.spacing = 100;
+  picture.focusRadius = 1;
+  picture.camera.eye = {0, 6, 0.1f};
+  picture.light.direction = {0.2f, -1, 0};
+  const Image empty = renderer().draw(picture);
+  picture.instances = {box({3, 0.3f, 3}, {0, 0.15f, 0}, kBlack)};
+  const Image shaded = renderer().draw(picture);
+  for (const int x : {10, 150}) {
+    for (int y = 10; y < 120; y += 10) EXPECT_EQ(at(shaded, x, y).sum(), at(empty, x, y).sum());
+  }
+}
+
 }  // namespace
 }  // namespace render
