@@ -26,7 +26,8 @@ constexpr double kFading = 0.9;  // how much of it a substep begins with
 double lastingShare(const ContactPointState& p, double farthest) {
   if (farthest == 0) return 0;
   const double most = p.gapAtStart < -kDeep && std::isinf(farthest) ? kFading : 1;
-  const double share = std::min(most, farthest / (p.resistance * p.normalTotal));
+  const double reach = p.resistance * p.normalTotal;  // how far the last multiplier pushes [m]
+  const double share = reach > 0 ? std::min(most, farthest / reach) : most;
   if (p.normalTotal <= 2 * p.normalBefore || p.settled) return share;
   return std::min(share, p.normalBefore / p.normalTotal);
 }
