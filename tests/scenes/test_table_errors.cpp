@@ -32,6 +32,10 @@ TEST(SceneText, DotsInStringsAndCommentsAndNumbersAreNoKeys) {
 TEST(SceneFile, ThatIsNotTomlIsReportedWhereItStopsToBe) {
   EXPECT_TRUE(
       errorOf("title = \"a\"\nduration = = 3\n").starts_with("test.toml:2:12: expected TOML:"));
+  for (const char* header : {"[[=]]", "[[[a]]]", "[[", "[ = ]"}) {
+    const std::string error = errorOf(std::string("title = \"a\"\n") + header + "\n");
+    EXPECT_TRUE(error.starts_with("test.toml:2:")) << header << ": " << error;
+  }
 }
 
 TEST(SceneFile, NamesTheNearestKeyForAnUnknownOne) {

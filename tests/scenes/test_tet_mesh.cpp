@@ -26,8 +26,8 @@ class SceneMesh : public testing::Test {
     try {
       const Scene scene =
           parseScene("[[soft_body]]\nmesh = \"a.mesh\"\n", (folder_ / "test.toml").string());
-      const physics::World& world = Simulation(scene).world();
-      return "no error, " + std::to_string(world.bodyCount() - 1) + " nodes";
+      const int bodies = Simulation(scene).world().bodyCount();
+      return "no error, " + std::to_string(bodies - 1) + " nodes";
     } catch (const InputError& error) {
       const std::string text = error.what();
       return text.substr(std::min(text.size(), folder_.string().size() + 1));
