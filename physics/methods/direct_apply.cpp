@@ -24,7 +24,9 @@ void shorten(World::Impl& world) {
   const Islands& islands = jointIslands(world);
   std::vector<double> farthest(world.bodies.pose.size(), 0.0);
   for (const BodyId i : active) farthest[islands[i]] = std::max(farthest[islands[i]], turnOf(i));
-  const auto part = [&](BodyId i) { return std::min(1.0, kFarthestTurn / farthest[islands[i]]); };
+  const auto part = [&](BodyId i) {
+    return kFarthestTurn / std::max(kFarthestTurn, farthest[islands[i]]);
+  };
   for (const BodyId i : active) {
     world.jointMotion[i].impulse *= part(i);
     world.jointMotion[i].torque *= part(i);
