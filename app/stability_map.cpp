@@ -168,7 +168,7 @@ std::string borderText(const StabilityBar& bar) {
   std::string text = bar.firstFailure ? failureText(*bar.firstFailure) : "fails";
   text = fmt::format("at {}: {}", levelText(*border.fails), text);
   if (border.holdsBeyond) text += fmt::format(" (holds at {})", levelText(*border.holdsBeyond));
-  if (bar.isSpent) text += "; search cut short";
+  if (bar.isSpent) text += "; cut short";
   return text;
 }
 

@@ -215,7 +215,9 @@ bool StabilityStudy::searchBar(const StabilityResult& result, StabilityBar& bar)
     bar.firstFailure = *found;
     bar.shots = planFailureShots(*found);
   }
-  return bar.isSpent || !bar.border.stopped;
+  const bool isWhole = bar.isSpent || !bar.border.stopped;
+  bar.isSpent = bar.isSpent && bar.border.holds != severity.to;
+  return isWhole;
 }
 
 bool StabilityStudy::search() {

@@ -121,12 +121,12 @@ TEST(SeverityMap, SaysWhereASearchWasCutShort) {
   bar.isSpent = true;
   EXPECT_EQ(borderText(bar), "not tried beyond: too much work");
   bar.border.fails = 2e4;
-  EXPECT_EQ(borderText(bar), "at 20000: fails; search cut short");
+  EXPECT_EQ(borderText(bar), "at 20000: fails; cut short");
 
   StabilityResult result;
   result.study.severity = severityOf(1, 1000, 1e6);
   result.bars.push_back(bar);
-  EXPECT_NE(severityText(result).find("search cut short"), std::string::npos);
+  EXPECT_NE(severityText(result).find("; cut short"), std::string::npos);
   result.bars[0].border.fails.reset();
   EXPECT_NE(severityText(result).find("holds to 1000, not tried beyond"), std::string::npos);
   const std::string script = mapScript({&result}, "Family", "map");
