@@ -45,8 +45,7 @@ const fs::path& madeFolder(const fs::path& folder) {
 
 // Of the case's duration, what a run that searches lasts.
 double searchedShare(const StabilityCase& study) {
-  const std::optional<double>& duration = study.severity->duration;
-  return duration ? *duration / scenes::stabilityScene(study, {}).duration : 1;
+  return study.severity->duration.value_or(study.duration) / study.duration;
 }
 
 std::string endFile(const StabilityRun& run) {
@@ -197,8 +196,7 @@ bool StabilityStudy::searchBar(const StabilityResult& result, StabilityBar& bar)
   std::vector<StabilityRun> runs;
   double work = 0;
   const auto judge = [&](double level) -> std::optional<bool> {
-    bar.isSpent = work > kMostWorkOfSearch;
-    if (bar.isSpent) return std::nullopt;
+    if (work > kMostWorkOfSearch) return std::nullopt;
     const std::vector<std::string> set = overridesOf(bar.way, severity, level);
     const StabilityKey key{result.study.name, bar.way.method, fmt::format("{}", level)};
     auto run = runOf(result, key, set, limits, [](const scenes::Simulation&, bool) {});
@@ -215,9 +213,9 @@ bool StabilityStudy::searchBar(const StabilityResult& result, StabilityBar& bar)
     bar.firstFailure = *found;
     bar.shots = planFailureShots(*found);
   }
-  const bool isWhole = bar.isSpent || !bar.border.stopped;
-  bar.isSpent = bar.isSpent && bar.border.holds != severity.to;
-  return isWhole;
+  const bool isInterrupted = bar.border.stopped && work <= kMostWorkOfSearch;
+  bar.isSpent = bar.border.stopped && !isInterrupted && bar.border.holds != severity.to;
+  return !isInterrupted;
 }
 
 bool StabilityStudy::search() {

@@ -58,7 +58,8 @@ std::optional<render::Color> namedColor(const std::string& text) {
   const bool isHex = text.starts_with('#') && (text.size() == 7 || text.size() == 9) &&
                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   unsigned r = 0, g = 0, b = 0, a = 255;
-  if (!isHex || std::sscanf(text.c_str(), "#%2x%2x%2x%2x", &r, &g, &b, &a) < 3) return std::nullopt;
+  if (!isHex) return std::nullopt;
+  std::sscanf(text.c_str(), "#%2x%2x%2x%2x", &r, &g, &b, &a);
   const auto unit = [](unsigned value) { return static_cast<float>(value) / 255.0f; };
   return render::Color{unit(r), unit(g), unit(b), unit(a)};
 }

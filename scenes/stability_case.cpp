@@ -241,7 +241,9 @@ std::vector<StabilityCase> readStabilityCases(const std::string& word) {
     if (variant.empty() || variant == other.name) cases.push_back(variantOf(base, other));
   }
   if (cases.empty()) throw InputError(fmt::format("{}: no variant '{}'", path, variant));
-  for (const StabilityCase& study : cases) stabilityScene(study, {});  // a mistake is told now
+  for (StabilityCase& study : cases) {
+    study.duration = stabilityScene(study, {}).duration;  // and a mistake is told now
+  }
   return cases;
 }
 

@@ -68,6 +68,7 @@ struct StabilityCase {
   StabilityFamily family;
   std::vector<StudyMethod> methods;  // beside the family's own settings
   bool quick = false;
+  double duration = 0;                        // s
   std::optional<StabilitySeverity> severity;  // of the file itself, not of its variants
 };
 

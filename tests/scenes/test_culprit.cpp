@@ -22,6 +22,15 @@ Checker::Verdict verdictOf(const std::string& text) {
   return checker.verdicts().at(0);
 }
 
+void expectFailsAtOnce(const std::string& text, const std::string& constraint,
+                       const std::string& bodies) {
+  const auto verdict = verdictOf(text);
+  ASSERT_TRUE(verdict.failure);
+  EXPECT_EQ(verdict.failure->frame, 0);
+  EXPECT_EQ(verdict.failure->constraint, constraint);
+  EXPECT_EQ(verdict.failure->bodies, bodies);
+}
+
 // x = t.
 std::string flight(const std::string& bound) {
   return "duration = 1\n[simulation]\nfps = 10\n[[body]]\nname = \"p\"\nvelocity = [1, 0, 0]\n" +
@@ -48,27 +57,22 @@ TEST(Culprit, IsLookedForInTheSpanOnly) {
 }
 
 TEST(Culprit, OfAJointErrorIsTheWidestJoint) {
-  const auto verdict = verdictOf(
+  expectFailsAtOnce(
       "duration = 0.1\n[simulation]\nfps = 10\n[[body]]\nname = \"a\"\nposition = [0, 0, 0]\n" +
-      kBall + "[[body]]\nname = \"b\"\nposition = [3, 0, 0]\n" + kBall +
-      "[[distance]]\nbodies = [\"world\", \"a\"]\nanchors = [[0, 1, 0], [0, 0, 0]]\nlength = 1\n"
-      "[[distance]]\nbodies = [\"a\", \"b\"]\nanchors = [[0, 0, 0], [0, 0, 0]]\nlength = 1\n"
-      "[[expect]]\nmetric = \"joint_error\"\nat_most = 0.1\n");
-  ASSERT_TRUE(verdict.failure);
-  EXPECT_EQ(verdict.failure->frame, 0);
-  EXPECT_EQ(verdict.failure->constraint, "distance 1");
-  EXPECT_EQ(verdict.failure->bodies, "a, b");
+          kBall + "[[body]]\nname = \"b\"\nposition = [3, 0, 0]\n" + kBall +
+          "[[distance]]\nbodies = [\"world\", \"a\"]\nanchors = [[0, 1, 0], [0, 0, 0]]\nlength = "
+          "1\n"
+          "[[distance]]\nbodies = [\"a\", \"b\"]\nanchors = [[0, 0, 0], [0, 0, 0]]\nlength = 1\n"
+          "[[expect]]\nmetric = \"joint_error\"\nat_most = 0.1\n",
+      "distance 1", "a, b");
 }
 
 TEST(Culprit, OfAVolumeErrorIsTheWorstTetrahedron) {
-  const auto verdict = verdictOf(
+  expectFailsAtOnce(
       "duration = 0.1\n[simulation]\nfps = 10\n[[soft_body]]\nname = \"tet\"\n"
       "mesh = \"tetrahedron.mesh\"\nstart_scale = [1, 0.3, 1]\ndensity = 1000\n"
-      "[[expect]]\nmetric = \"volume_error\"\nat_most = 0.1\n");
-  ASSERT_TRUE(verdict.failure);
-  EXPECT_EQ(verdict.failure->frame, 0);
-  EXPECT_EQ(verdict.failure->constraint, "volume 0");
-  EXPECT_EQ(verdict.failure->bodies, "tet.0, tet.1, tet.2, tet.3");
+      "[[expect]]\nmetric = \"volume_error\"\nat_most = 0.1\n",
+      "volume 0", "tet.0, tet.1, tet.2, tet.3");
 }
 
 TEST(Culprit, OfAnOverlapIsTheDeepestContact) {
