@@ -3,6 +3,7 @@
 
 #include "physics/world.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
@@ -42,7 +43,7 @@ TEST(Drive, LimitsTheTorqueByItsLengthInAnyDirection) {
 }
 
 Settings oneStep() {
-  Settings settings;
+  Settings settings = sweeps();
   settings.dt = kStep;
   settings.substeps = 1;
   settings.iterations = 1;

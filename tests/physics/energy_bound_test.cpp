@@ -5,6 +5,7 @@
 #include "physics/constraints/force.h"
 #include "physics/measure.h"
 #include "physics/world.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics {
 namespace {
@@ -38,7 +39,7 @@ struct Thrown {
   }
 
   static Settings settings() {
-    Settings settings;
+    Settings settings = testing::sweeps();
     settings.substeps = 2;
     settings.iterations = settings.maxIterations = 1;
     settings.gravity = Vec3(0, -9.81, 0);

@@ -8,6 +8,7 @@
 #include "physics/constraints/spring.h"
 #include "physics/world.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
@@ -55,7 +56,7 @@ TEST(Erratum95, ClampedIncrementsCannotTakeAnImpulseBack) {
 
 // One step of 1/60 s above the plane y = 0; no gravity, no friction unless asked.
 World floorWorld(const Vec3& gravity, double friction) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.substeps = 1;
   settings.iterations = 8;
   settings.gravity = gravity;

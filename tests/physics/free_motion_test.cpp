@@ -5,12 +5,13 @@
 
 #include "physics/measure.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
 
 Settings settingsOf(double dt, int substeps) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.dt = dt;
   settings.substeps = substeps;
   return settings;

@@ -3,12 +3,13 @@
 
 #include "physics/measure.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
 
 Settings collisions(double dt, double restitution) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.dt = dt;
   settings.substeps = 1;
   settings.iterations = 8;
@@ -145,7 +146,7 @@ struct OverfullBox {
 
 // None is pushed through a wall for the others, none through another.
 TEST(Overlap, ThatCannotVanishIsShared) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.contact = ContactSettings{};
   settings.iterations = 4;
   OverfullBox box(settings);
@@ -163,7 +164,7 @@ TEST(Overlap, ThatCannotVanishIsShared) {
 // What presses from all sides balances itself: errors of the sweeps must not heap up in it. They
 // came to ten thousand times the weight.
 TEST(Overlap, ThatCannotVanishPressesNoHarderWithTime) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.contact = ContactSettings{};
   settings.gravity = Vec3(0, -9.81, 0);
   settings.iterations = 4;

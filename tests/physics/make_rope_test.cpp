@@ -3,12 +3,13 @@
 
 #include "physics/make/rope.h"
 #include "tests/physics/make_parts.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
 
 Settings withContact() {
-  Settings settings;
+  Settings settings = sweeps();
   settings.gravity = Vec3(0, -9.81, 0);
   settings.contact = ContactSettings{};
   return settings;

@@ -6,6 +6,7 @@
 #include "physics/constraints/ball_socket.h"
 #include "physics/world.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
@@ -53,7 +54,7 @@ TEST(Regularisation, AsComplianceIsTheSolutionOf56) {
 
 TEST(Regularisation, AsDampingIsExactWhereAnExactSolutionExists) {
   for (const bool damps : {true, false}) {
-    Settings settings;
+    Settings settings = sweeps();
     settings.regularisation = 0.05;
     settings.regularisationForm = damps ? Regularisation::kDamping : Regularisation::kCompliance;
     settings.stepping = Stepping::kStatic;
@@ -75,7 +76,7 @@ TEST(Regularisation, AsDampingIsExactWhereAnExactSolutionExists) {
 
 TEST(StaticSteps, AreTheIterationsOfOneSolve) {
   const auto build = [](int iterations) {
-    Settings settings;
+    Settings settings = sweeps();
     settings.stepping = Stepping::kStatic;
     settings.substeps = 1;
     settings.iterations = iterations;
@@ -104,7 +105,7 @@ TEST(StaticSteps, AreTheIterationsOfOneSolve) {
 // (53) on links in a row: over-relaxation needs fewer sweeps, and 2 or more does not converge.
 TEST(Relaxation, OfOnePointThreeNeedsFewerSweepsThanOne) {
   const auto sweepsTo = [](double relaxation) {
-    Settings settings;
+    Settings settings = sweeps();
     settings.stepping = Stepping::kStatic;
     settings.substeps = 1;
     settings.relaxation = relaxation;

@@ -5,6 +5,7 @@
 
 #include "physics/measure.h"
 #include "physics/world.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics {
 namespace {
@@ -24,7 +25,7 @@ double exactPeriod() {
 }
 
 World pendulum(int stepsPerSecond) {
-  Settings settings;
+  Settings settings = testing::sweeps();
   settings.dt = 1.0 / stepsPerSecond;
   settings.substeps = 1;
   settings.iterations = 4;
@@ -78,7 +79,7 @@ TEST(Pendulum, NeverGainsEnergy) {
 
 // NOTES 3.4: omega = omega0 / sqrt(1 + 2 omega0^2 h t), measured there to 0.5 %.
 TEST(Dumbbell, LosesItsSpinByTheLawOfTheScheme) {
-  Settings settings;
+  Settings settings = testing::sweeps();
   settings.dt = 1.0 / 60;
   settings.substeps = 1;
   settings.iterations = 20;

@@ -3,13 +3,14 @@
 
 #include "physics/world.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 
 inline constexpr double kStep = 1.0 / 60;
 
 inline Settings steps(int substeps, int iterations) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.dt = kStep;
   settings.substeps = substeps;
   settings.iterations = iterations;

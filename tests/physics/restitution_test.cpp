@@ -3,6 +3,7 @@
 
 #include "physics/measure.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 constexpr double kGravity = 9.81;
 
 Settings bouncing(double h, double restitution, bool gravity) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.dt = h;
   settings.substeps = 1;
   settings.iterations = 8;

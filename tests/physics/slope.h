@@ -7,6 +7,7 @@
 
 #include "physics/world.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 
@@ -14,7 +15,7 @@ constexpr double kGravity = 9.81;
 
 // A plane y = 0 with gravity leaning by `slope` towards +x.
 inline World slopeOf(double slope, Friction friction, int substeps = 4) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.dt = 1.0 / 60;
   settings.substeps = substeps;
   settings.gravity = kGravity * Vec3(std::sin(slope), -std::cos(slope), 0);

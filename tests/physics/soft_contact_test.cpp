@@ -5,6 +5,7 @@
 
 #include "physics/world.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
@@ -20,7 +21,7 @@ struct Scene {
     soft.friction = {friction, friction};
   }
   static Settings settingsOf(double friction, int substeps, bool gravity) {
-    Settings settings;
+    Settings settings = sweeps();
     settings.substeps = substeps;
     settings.iterations = 10;
     if (gravity) settings.gravity = Vec3(0, -9.81, 0);

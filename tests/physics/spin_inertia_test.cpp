@@ -6,6 +6,7 @@
 
 #include "physics/world.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
@@ -56,7 +57,7 @@ TEST(SpinInertia, StaysPositiveAndStepsAsideForFastSpins) {
 
 TEST(SpinInertia, JoinsAFastPairWithLessErrorAfterOneIteration) {
   const auto errorWith = [](bool spin) {
-    Settings settings;
+    Settings settings = sweeps();
     settings.substeps = 1;
     settings.spinInertia = spin;
     settings.refreshInertia = false;

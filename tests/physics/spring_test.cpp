@@ -3,6 +3,7 @@
 
 #include "physics/world.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 constexpr double kStep = 1.0 / 60;
 
 Settings oneStep(int iterations) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.dt = kStep;
   settings.substeps = 1;
   settings.iterations = iterations;

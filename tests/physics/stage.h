@@ -3,11 +3,12 @@
 
 #include "physics/make/chain.h"
 #include "physics/world.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 
 inline Settings grounded() {
-  Settings settings;
+  Settings settings = sweeps();
   settings.gravity = Vec3(0, -9.81, 0);
   settings.contact = ContactSettings{};
   return settings;

@@ -5,6 +5,7 @@
 
 #include "physics/measure.h"
 #include "tests/physics/order_cases.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
@@ -17,7 +18,7 @@ INSTANTIATE_TEST_SUITE_P(Of, SecondOrderStepping, ::testing::ValuesIn(kBoth), []
 });
 
 Settings withContact(Stepping stepping, double h, double friction, double restitution = 0) {
-  Settings s;
+  Settings s = sweeps();
   s.dt = h;
   s.substeps = 1;
   s.iterations = 8;

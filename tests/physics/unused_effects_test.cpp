@@ -5,6 +5,7 @@
 #include "physics/make/rope.h"
 #include "physics/measure.h"
 #include "tests/physics/stage.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics {
 namespace {
@@ -30,7 +31,7 @@ World makeChain(const Settings& settings) {
 }
 
 Settings falling() {
-  Settings settings;
+  Settings settings = sweeps();
   settings.gravity = Vec3(0, -9.81, 0);
   return settings;
 }

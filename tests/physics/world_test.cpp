@@ -7,6 +7,7 @@
 
 #include "physics/measure.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
@@ -131,7 +132,7 @@ TEST(NotFinite, AJointThatOverflowsIsNamed) {
 }
 
 TEST(Report, CountsSubstepsAndIterations) {
-  Settings settings;
+  Settings settings = sweeps();
   settings.substeps = 5;
   settings.iterations = 3;
   World world(settings);

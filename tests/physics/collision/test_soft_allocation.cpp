@@ -3,6 +3,7 @@
 
 #include "physics/world.h"
 #include "tests/physics/collision/scene_of_two.h"
+#include "tests/physics/sweeps.h"
 
 namespace physics {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using namespace testing;
 
 Settings settings() {
-  Settings s;
+  Settings s = sweeps();
   s.substeps = 2;
   s.iterations = 2;
   s.maxIterations = 0;
