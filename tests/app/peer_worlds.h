@@ -10,13 +10,14 @@
 #include "physics/make/prismatic.h"
 #include "physics/make/universal.h"
 #include "physics/measure.h"
+#include "tests/physics/sweeps.h"
 
 namespace tests {
 
 constexpr double kGravity = 9.81;
 
 inline physics::Settings falling() {
-  physics::Settings settings;
+  physics::Settings settings = physics::testing::sweeps();
   settings.gravity = physics::Vec3(0, -kGravity, 0);
   return settings;
 }

@@ -18,6 +18,7 @@ struct Grid {
 
 Settings settings() {
   Settings s;
+  s.method = Method::kNonlinearGaussSeidel;
   s.substeps = 1;
   s.iterations = 8;
   s.gravity = Vec3(0, -100, 0);

@@ -89,6 +89,7 @@ TEST(Accuracy, OfBallsThatBounceWithoutLossKeepsEveryJoule) {
       const std::string fps = std::to_string(study.fps * std::stoi(steps));
       const Scene scene = studyScene(
           study, std::vector<std::string>{"simulation.fps=" + fps, "simulation.substeps=1",
+                                          "simulation.method=nonlinear_gauss_seidel",
                                           std::string("simulation.stepping=") + stepping});
       Simulation simulation(scene);
       const double start = simulation.metrics().total;

@@ -45,12 +45,12 @@ TEST(LeftOut, WrongValuesAreReportedAtTheirPlace) {
 }
 
 TEST(LeftOut, MetricsCountTheBodiesThatSleep) {
-  Simulation run(
-      parseScene("[gravity]\n[sleep]\ntime = 0.1\n"
-                 "[[body]]\nshape = { plane = { normal = [0, 1, 0], offset = 0 } }\n"
-                 "[[body]]\nname = \"box\"\nshape = { box = { size = [1, 1, 1] } }\n"
-                 "mass = 1\nposition = [0, 0.5, 0]\n",
-                 "test.toml"));
+  Simulation run(parseScene(
+      "[simulation]\nmethod = \"nonlinear_gauss_seidel\"\n[gravity]\n[sleep]\ntime = 0.1\n"
+      "[[body]]\nshape = { plane = { normal = [0, 1, 0], offset = 0 } }\n"
+      "[[body]]\nname = \"box\"\nshape = { box = { size = [1, 1, 1] } }\n"
+      "mass = 1\nposition = [0, 0.5, 0]\n",
+      "test.toml"));
   EXPECT_EQ(run.metrics().asleep, 0);
   for (int k = 0; k < 20; ++k) run.advance();
   EXPECT_EQ(run.metrics().asleep, 1);
@@ -58,7 +58,7 @@ TEST(LeftOut, MetricsCountTheBodiesThatSleep) {
 
 TEST(LeftOut, ABodyAsksForSubstepsOfItsOwn) {
   const Scene scene = parseScene(
-      "[simulation]\nsubsteps = 8\nlocal_substeps = true\n"
+      "[simulation]\nmethod = \"nonlinear_gauss_seidel\"\nsubsteps = 8\nlocal_substeps = true\n"
       "[[body]]\nname = \"a\"\nshape = { sphere = { radius = 1 } }\n"
       "mass = 1\nsubsteps = 4\n",
       "test.toml");

@@ -36,8 +36,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Repeats,
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(Repeats, OfEveryMethodHaveTheSameStateHash) {
-  for (const char* method : {"direct", "linear_gauss_seidel", "xpbd", "sequential_impulses",
-                             "penalty", "penalty_explicit"}) {
+  for (const char* method : {"nonlinear_gauss_seidel", "direct", "linear_gauss_seidel", "xpbd",
+                             "sequential_impulses", "penalty", "penalty_explicit"}) {
     const std::vector<std::string> set{std::string("simulation.method=") + method};
     const Scene scene = readScene("mixed_shapes", set);
     const std::uint64_t first = hashOf(scene, kFrames);
