@@ -10,6 +10,7 @@
 #include "app/output_file.h"
 #include "app/parallel.h"
 #include "app/study_effort.h"
+#include "scenes/settings_reader.h"
 #include "scenes/study_files.h"
 
 namespace app {
@@ -29,8 +30,9 @@ bool isOwn(const scenes::Value& settings, const std::string& setting) {
   const scenes::Value* own = scenes::findValue(settings, setting.substr(0, equals));
   const std::string value = setting.substr(equals + 1);
   if (own != nullptr) return own->text == value;
-  return setting == "simulation.method=nonlinear_gauss_seidel" ||
-         setting == "simulation.stepping=paper";
+  const physics::Settings otherwise;
+  return setting == fmt::format("simulation.method={}", scenes::wordOf(otherwise.method)) ||
+         setting == fmt::format("simulation.stepping={}", scenes::wordOf(otherwise.stepping));
 }
 
 bool isOwn(const scenes::StabilityFamily& family, const std::vector<std::string>& set) {

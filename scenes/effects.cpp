@@ -7,6 +7,7 @@
 
 #include "physics/constraint_item.h"
 #include "scenes/effect_words.h"
+#include "scenes/settings_reader.h"
 #include "scenes/survey.h"
 
 namespace scenes {
@@ -174,8 +175,9 @@ void fillDirect(const Survey& s, Effect& e) {
   const bool asked = s.scene.settings.method == Method::kDirect;
   e.leftOut = asked && equalities == 0;
   e.on = asked && !e.leftOut;
-  e.why = e.leftOut ? "no joint to solve directly"
-                    : or_(s.place("simulation.method"), "method = \"nonlinear_gauss_seidel\"");
+  const std::string method = fmt::format("method = \"{}\"", wordOf(s.scene.settings.method));
+  e.why =
+      e.leftOut ? "no joint to solve directly" : or_(s.place("simulation.method"), method.c_str());
   e.count = equalities;
   e.unit = "joints";
   e.without = {"simulation.method=nonlinear_gauss_seidel"};

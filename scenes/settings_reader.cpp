@@ -45,7 +45,8 @@ void readSimulation(TableReader& reader, Scene& scene) {
   reader(Field{"local_tolerance", Unit::kMetre, false, kPositive}, settings.localTolerance);
   reader(Field{"leave_out"}, settings.leavesOut);
   reader(Field{"seed"}, scene.seed);
-  settings.method = static_cast<physics::Method>(readWord(reader, "method", kMethods, 0));
+  settings.method = static_cast<physics::Method>(
+      readWord(reader, "method", kMethods, static_cast<int>(settings.method)));
   settings.stepping = static_cast<physics::Stepping>(readWord(reader, "stepping", kSteppings, 0));
   settings.regularisationForm = static_cast<physics::Regularisation>(
       readWord(reader, "regularisation_form", kRegularisations, 0));
