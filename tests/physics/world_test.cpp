@@ -117,7 +117,7 @@ TEST(NotFinite, ATorqueIsNamedWithItsBody) {
 }
 
 TEST(NotFinite, AJointThatOverflowsIsNamed) {
-  World world;
+  World world(sweeps());
   BodyDef ball;
   ball.shape = Sphere{0.1};
   BallSocketDef joint;
