@@ -57,7 +57,8 @@ TEST(Metric, TellsValueAndBoundInItsText) {
 
 TEST(Metric, TiltOfABodyThatTurnsAboutZIsItsAngle) {
   const Scene scene = sceneOf(
-      "duration = 0.5\n[[body]]\nname = \"p\"\nshape = { sphere = { radius = 1 "
+      "duration = 0.5\n[simulation]\nmethod = \"nonlinear_gauss_seidel\"\n"
+      "[[body]]\nname = \"p\"\nshape = { sphere = { radius = 1 "
       "} }\nangular_velocity = [0, 0, 1]\n[[expect]]\nmetric = \"tilt\"\nbody = "
       "\"p\"\nat_most = 1\n");
   Simulation simulation(scene);
