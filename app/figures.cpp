@@ -177,7 +177,7 @@ ExitCode figures(const FigureOptions& options) {
   return allHold ? ExitCode::kDone : ExitCode::kCheckFailed;
 }
 
-constexpr const char* kHelp =
+constexpr const char* kFiguresHelp =
     "Make the figures of the paper, or your own\n\n"
     "Each FIGURE is a number (7), a name (axle) or the path of a sheet; without any, all that are\n"
     "shipped in scenes/figures. Into DIR go figure01.png and its data figure01.csv, where it "
@@ -190,7 +190,7 @@ constexpr const char* kHelp =
 
 void addFigures(CLI::App& line, Action& action) {
   auto options = std::make_shared<FigureOptions>();
-  CLI::App* command = line.add_subcommand("figures", kHelp);
+  CLI::App* command = line.add_subcommand("figures", kFiguresHelp);
   command->add_option("FIGURE", options->figures, "Numbers, names or paths of sheets [all]");
   command->add_option("--quality", options->quality, "Effort of drawing [paper]")
       ->type_name("draft|standard|paper");

@@ -1,100 +1,10 @@
-// dbd: displacement based dynamics. Chooses the command, and turns errors into exit codes.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
+// dbd: displacement based dynamics.
+#include <cstdio>
 #include <cstdlib>
-#include <new>
-#include <string>
-#include <system_error>
-#include <vector>
 
-#include "app/build_info.h"
-#include "app/commands.h"
+#include "app/command_line.h"
 #include "app/console.h"
 #include "app/interrupt.h"
-#include "app/nearest.h"
-
-namespace {
-
-using app::ExitCode;
-
-constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 a bug of dbd, 2 bad arguments or scene, 3 a check failed,\n"
-    "4 the environment (disk, permissions, ffmpeg), 130 interrupted (run it again to go on).\n"
-    "DBD_HOME names the folder that holds scenes/ and assets/, where they are not found.\n";
-
-// An unknown command is told before the parser sees it: it would only say that one is required.
-void requireKnownCommand(const CLI::App& line, int argc, const char* const* argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> known;
-  for (const CLI::App* command : line.get_subcommands({})) known.push_back(command->get_name());
-  const std::string word = argv[1];
-  if (std::find(known.begin(), known.end(), word) != known.end()) return;
-  const std::string nearest = app::nearestWord(word, known);
-  throw scenes::InputError(
-      fmt::format("no command '{}'; {}", word,
-                  nearest.empty() ? fmt::format("the commands are {}", fmt::join(known, ", "))
-                                  : fmt::format("did you mean '{}'?", nearest)));
-}
-
-ExitCode run(int argc, const char* const* argv) {
-  CLI::App line("Displacement based dynamics: scenes in, measured motion and pictures out.", "dbd");
-  line.require_subcommand(1);
-  line.set_version_flag("--version", "dbd " + app::version());
-  line.footer(kFooter);
-  app::Action action;
-  app::addList(line, action);
-  app::addPlan(line, action);
-  app::addSimulate(line, action);
-  app::addRender(line, action);
-  app::addFigures(line, action);
-  app::addStudy(line, action);
-  app::addGolden(line, action);
-  app::addCompare(line, action);
-  app::addCheck(line, action);
-  app::addDoctor(line, action);
-  app::addGallery(line, action);
-  requireKnownCommand(line, argc, argv);
-  try {
-    line.parse(argc, argv);
-  } catch (const CLI::Success& help) {  // --help, --version
-    std::ostringstream text;
-    line.exit(help, text, text);
-    app::say(text.str());
-    return ExitCode::kDone;
-  } catch (const CLI::ParseError& error) {
-    throw scenes::InputError(
-        fmt::format("{}\nRun 'dbd --help' or 'dbd COMMAND --help'.", error.what()));
-  }
-  return action();
-}
-
-ExitCode runAndReport(int argc, const char* const* argv) {
-  const auto fail = [](const char* what, ExitCode code) {
-    app::note(fmt::format("dbd: {}\n", what));
-    return code;
-  };
-  try {
-    const ExitCode code = run(argc, argv);
-    app::flushOutput();
-    return code;
-  } catch (const scenes::InputError& error) {
-    return fail(error.what(), ExitCode::kBadInput);
-  } catch (const app::EnvironmentError& error) {
-    return fail(error.what(), ExitCode::kEnvironment);
-  } catch (const app::CheckFailed& error) {
-    return fail(error.what(), ExitCode::kCheckFailed);
-  } catch (const std::system_error& error) {
-    return fail(error.what(), ExitCode::kEnvironment);
-  } catch (const std::bad_alloc&) {
-    return fail("out of memory", ExitCode::kEnvironment);
-  } catch (const std::exception& error) {
-    return fail(fmt::format("this is a bug of dbd, please report it: {}", error.what()).c_str(),
-                ExitCode::kBug);
-  }
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   app::guardStandardStreams();
@@ -102,7 +12,7 @@ int main(int argc, char** argv) {
   // Each renderer draws on its own thread; Mesa's would only compete with them. Read by Mesa when
   // the first context is made.
   setenv("LP_NUM_THREADS", "0", 1);
-  const ExitCode code = runAndReport(argc, argv);
+  const app::ExitCode code = app::runCommandLine(argc, argv);
   std::fflush(stdout);
   return static_cast<int>(code);
 }

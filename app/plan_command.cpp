@@ -29,7 +29,7 @@ ExitCode plan(const PlanOptions& options) {
   return plan.step.problem.empty() ? ExitCode::kDone : ExitCode::kCheckFailed;
 }
 
-constexpr const char* kHelp =
+constexpr const char* kPlanHelp =
     "What a scene simulates and what it leaves out, why, and what it costs\n\n"
     "Every effect there is, on or off, with the scene's line that switches it on or the reason why "
     "it\n"
@@ -41,7 +41,7 @@ constexpr const char* kHelp =
 
 void addPlan(CLI::App& line, Action& action) {
   auto options = std::make_shared<PlanOptions>();
-  CLI::App* command = line.add_subcommand("plan", kHelp);
+  CLI::App* command = line.add_subcommand("plan", kPlanHelp);
   addScene(*command, options->common);
   command->add_flag("--json", options->json, "As JSON; app/plan.h says what is in it");
   command->add_option("--steps", options->effort.steps, "Frames of a run [60]")

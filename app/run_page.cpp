@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string textOf(const Json& json, const char* key) {
+std::string fieldText(const Json& json, const char* key) {
   return json.is_object() ? escapeHtml(json.value(key, "")) : "";
 }
 
@@ -40,7 +40,7 @@ std::string showPicture(const RunRecord& record, const std::string& poster,
   return fmt::format(
       "<video controls loop muted playsinline preload=\"metadata\" poster=\"{}\" src=\"{}/{}\" "
       "width=\"{}\" height=\"{}\"></video>\n",
-      still, escapeHtml(link), textOf(record.video, "file"), record.picture.value("width", 0),
+      still, escapeHtml(link), fieldText(record.video, "file"), record.picture.value("width", 0),
       record.picture.value("height", 0));
 }
 
@@ -51,7 +51,7 @@ std::string showExpectations(const RunRecord& record) {
     const bool holds = verdict.value("holds", false);
     html += fmt::format(
         "<tr><td class=\"{}\">{}</td><td>{}</td><td class=\"number\">{:.2f} s</td></tr>\n",
-        holds ? "good" : "bad", holds ? "holds" : "fails", textOf(verdict, "text"),
+        holds ? "good" : "bad", holds ? "holds" : "fails", fieldText(verdict, "text"),
         verdict.value("at_time", 0.0));
   }
   return html + "</table>\n";
@@ -79,18 +79,18 @@ std::string showSettings(const RunRecord& record) {
       "quality. Last state <code>{}</code></p>\n",
       s.value("frames", 0), s.value("fps", 0), s.value("substeps", 0), s.value("iterations", 0),
       record.picture.value("width", 0), record.picture.value("height", 0),
-      textOf(record.picture, "quality"),
+      fieldText(record.picture, "quality"),
       record.stateHashes.empty() ? "" : record.stateHashes.back());
 }
 
 std::string showRun(const RunRecord& record, const fs::path& folder, const std::string& link) {
-  std::string html = fmt::format("<section><h2>{}</h2>\n", textOf(record.scene, "title"));
-  const std::string description = textOf(record.scene, "description");
+  std::string html = fmt::format("<section><h2>{}</h2>\n", fieldText(record.scene, "title"));
+  const std::string description = fieldText(record.scene, "description");
   if (!description.empty()) html += fmt::format("<p>{}</p>\n", description);
   html += "<div class=\"sides\"><div>\n" + showPicture(record, posterOf(folder, link), link);
   html += fmt::format("</div><div>\n{}{}{}", showExpectations(record), showTimes(record),
                       showSettings(record));
-  html += fmt::format("<p><code>dbd render {}{}</code></p>\n", textOf(record.scene, "name"),
+  html += fmt::format("<p><code>dbd render {}{}</code></p>\n", fieldText(record.scene, "name"),
                       record.video.is_object() ? " --video" : "");
   return html + "</div></div></section>\n";
 }

@@ -140,7 +140,7 @@ ExitCode stability(const StabilityOptions& options) {
   return allHold ? ExitCode::kDone : ExitCode::kCheckFailed;
 }
 
-constexpr const char* kHelp =
+constexpr const char* kStabilityHelp =
     "Run hard cases and say whether they hold\n\n"
     "Each CASE is a name of scenes/studies/stability, or the path of a case's file: a scene whose\n"
     "[[expect]]s are its criterion, solved with the settings of its family. Writes cases.csv, a\n"
@@ -155,7 +155,7 @@ constexpr const char* kHelp =
 
 void addStabilityStudy(CLI::App& study, Action& action) {
   auto options = std::make_shared<StabilityOptions>();
-  CLI::App* command = study.add_subcommand("stability", kHelp);
+  CLI::App* command = study.add_subcommand("stability", kStabilityHelp);
   command->add_option("CASE", options->cases, "Names or paths of cases [all]");
   command->add_option("--severity", options->severity, "Find how far each case can be pushed")
       ->check(CLI::IsMember({"search"}))

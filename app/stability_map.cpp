@@ -14,7 +14,7 @@ namespace {
 
 using scenes::StabilitySeverity;
 constexpr double kLine = 18;                   // pixels of the SVG
-constexpr int kWidth = 1080;                   // pixels of the SVG
+constexpr int kMapWidth = 1080;                // pixels of the SVG
 constexpr double kLeft = 0.25, kRight = 0.64;  // of the width: where bars begin and end
 constexpr double kEdge = 0.012;                // of the width, left free
 constexpr double kFarLeft = (kEdge - kLeft) / (kRight - kLeft);
@@ -193,7 +193,7 @@ std::string mapScript(const std::vector<const StabilityResult*>& cases, const st
       "set tmargin at screen 1\nset bmargin at screen 0\nset xrange [0:1]\nset yrange [{:.3f}:0]\n",
       kLeft, kRight, y);
   text += drawing.body();
-  return text + endPlot(name, "plot NaN notitle\n", kWidth, height);
+  return text + endPlot(name, "plot NaN notitle\n", kMapWidth, height);
 }
 
 }  // namespace app

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 480, kHeight = 320;
+constexpr int kShotWidth = 480, kShotHeight = 320;
 constexpr double kInk = 1.6;
 constexpr int kBoundsEvery = 10;      // frames
 constexpr double kCloseMargin = 0.5;  // of a close-up
 
 scenes::ViewOptions viewOptions() {
   scenes::ViewOptions options;
-  options.aspect = static_cast<double>(kWidth) / kHeight;
+  options.aspect = static_cast<double>(kShotWidth) / kShotHeight;
   options.ink = kInk;
   return options;
 }
@@ -68,7 +68,8 @@ void EndPicture::observe(const scenes::Simulation& simulation, bool failed) {
 
 bool EndPicture::write(const fs::path& file) const {
   if (!picture_) return false;
-  app::write(*openRenderer({kWidth, kHeight, render::Quality::kStandard, ""}), *picture_, file);
+  app::write(*openRenderer({kShotWidth, kShotHeight, render::Quality::kStandard, ""}), *picture_,
+             file);
   return true;
 }
 
@@ -102,7 +103,7 @@ bool drawFailureShots(const scenes::StabilityCase& study, const std::vector<std:
   const int first = shots.front().frame;
   int last = first;
   for (const StabilityShot& shot : shots) last = std::max(last, shot.frame);
-  const auto renderer = openRenderer({kWidth, kHeight, render::Quality::kStandard, ""});
+  const auto renderer = openRenderer({kShotWidth, kShotHeight, render::Quality::kStandard, ""});
   scenes::MotionBounds bounds;
   scenes::ViewOptions options = viewOptions();
   options.overlays.contacts = options.overlays.joints = true;

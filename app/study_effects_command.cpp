@@ -112,7 +112,7 @@ ExitCode effects(const EffectsOptions& options) {
   return ExitCode::kDone;
 }
 
-constexpr const char* kHelp =
+constexpr const char* kEffectsHelp =
     "Measure what each effect costs and what it changes\n\n"
     "Each SCENE is run with and without each effect that can be taken out of it, and with all that "
     "the\n"
@@ -125,7 +125,7 @@ constexpr const char* kHelp =
 
 void addEffectStudy(CLI::App& study, Action& action) {
   auto options = std::make_shared<EffectsOptions>();
-  CLI::App* command = study.add_subcommand("effects", kHelp);
+  CLI::App* command = study.add_subcommand("effects", kEffectsHelp);
   command->add_option("SCENE", options->scenes, "Names or paths of scenes [those of the README]");
   command->add_flag("--quick", options->quick, "Few steps and repeats: under a minute");
   command->add_flag("--fresh", options->fresh, "Measure everything again");

@@ -91,7 +91,7 @@ ExitCode studyChoices(const OptionsOptions& options) {
   return ExitCode::kDone;
 }
 
-constexpr const char* kHelp =
+constexpr const char* kOptionsHelp =
     "Measure what each choice buys\n\n"
     "Each OPTION is a name of scenes/studies/options, or the path of such a file: one choice, and\n"
     "cases that are run with it and without it. Writes a table of errors and times for each.";
@@ -100,7 +100,7 @@ constexpr const char* kHelp =
 
 void addOptionStudy(CLI::App& study, Action& action) {
   auto options = std::make_shared<OptionsOptions>();
-  CLI::App* command = study.add_subcommand("options", kHelp);
+  CLI::App* command = study.add_subcommand("options", kOptionsHelp);
   command->add_option("OPTION", options->options, "Names or paths [all]");
   command->add_flag("--quick", options->quick, "Only the quick trials, with few repeats");
   command->add_flag("--fresh", options->fresh, "Measure everything again");

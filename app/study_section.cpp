@@ -12,7 +12,7 @@ namespace app {
 
 namespace {
 
-std::string titleOf(const StudyResults& results, int method) {
+std::string titleInHtml(const StudyResults& results, int method) {
   return escapeHtml(results.study.methods[static_cast<std::size_t>(method)].title);
 }
 
@@ -80,7 +80,7 @@ std::string cheapestTable(const StudyResults& results) {
   const std::vector<CheapestRow> rows = cheapestRows(results);
   std::string html = "<table><tr><th>cheapest way to</th><th>ours</th>";
   for (const CheapestRow::PeerPoint& peer : rows.front().peers) {
-    html += "<th>" + titleOf(results, peer.method) + "</th>";
+    html += "<th>" + titleInHtml(results, peer.method) + "</th>";
   }
   html += "<th></th></tr>\n";
   for (const CheapestRow& row : rows) {
@@ -116,7 +116,7 @@ std::string methodTable(const StudyResults& results) {
       "s</th><th>joints open, m</th><th>overlap, m</th><th>energy drift</th><th>momentum "
       "drift</th><th></th></tr>\n";
   for (const MethodRow& row : methodRows(results)) {
-    html += "<tr><td>" + titleOf(results, row.method) + "</td>";
+    html += "<tr><td>" + titleInHtml(results, row.method) + "</td>";
     if (row.best == nullptr) {
       html += "<td></td><td></td><td></td><td></td><td></td><td></td><td></td><td></td>";
     } else {

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 480, kHeight = 320;
+constexpr int kShotWidth = 480, kShotHeight = 320;
 constexpr double kInk = 1.6;
 
 // Simulates a point to its end, shows every sample to `visit`. False: interrupted.
@@ -88,10 +88,10 @@ bool drawShots(const StudyResults& results, const std::vector<StudyShot>& shots,
   if (shots.empty() || (areThere && !fresh)) return true;
   fs::create_directories(folder / "shots");
   scenes::MotionBounds bounds;
-  const auto renderer = openRenderer({kWidth, kHeight, render::Quality::kStandard, ""});
+  const auto renderer = openRenderer({kShotWidth, kShotHeight, render::Quality::kStandard, ""});
   for (std::size_t i = 0; i < shots.size(); ++i) {
     scenes::ViewOptions options;
-    options.aspect = static_cast<double>(kWidth) / kHeight;
+    options.aspect = static_cast<double>(kShotWidth) / kShotHeight;
     options.ink = kInk;
     const auto visit = [&](const scenes::Simulation& simulation, bool isLast) {
       if (i == 0) bounds.include(simulation);  // the best run frames the others

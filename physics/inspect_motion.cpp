@@ -12,7 +12,7 @@ namespace {
 // The symmetric scheme is stable up to w h = 2, w the fastest of the motion. The bodies' own
 // stiffness over their mass, K/m, is half of the chain's largest w^2 (NOTES 6: 4T/(m l) against
 // 2T/(m l)): this bound on h^2 K/m leaves a half.
-constexpr double kResolved = 1;
+constexpr double kSymmetricBound = 1;
 
 template <class C>
 bool isTwoSided(const Evaluated<C>& row) {
@@ -176,7 +176,8 @@ void inspectMotion(World::Impl& w, double h) {
   }
   inspectKinds(w);
   inspectContacts(w, h);
-  for (const BodyId i : w.bodies.active) stepper.unresolved[i] = !(stepper.ratio[i] <= kResolved);
+  for (const BodyId i : w.bodies.active)
+    stepper.unresolved[i] = !(stepper.ratio[i] <= kSymmetricBound);
 }
 
 }  // namespace physics

@@ -112,6 +112,9 @@ Vec3 logarithm(const Quat& q) {
   return (2 * arcTangent(sine, w) / sine) * v;
 }
 
+// Here alone: Eigen instantiates a singular value decomposition for it, seconds to compile.
+Quat turnBetween(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
+
 Vec3 anyNormalTo(const Vec3& n) {
   int smallest = 0;
   n.cwiseAbs().minCoeff(&smallest);

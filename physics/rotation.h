@@ -33,6 +33,9 @@ inline void displace(Pose& pose, const Vec3& dx, const Vec3& dtheta) {
   pose.q = exponential(dtheta) * pose.q;
 }
 
+// The shortest turn that takes the direction of `from` to that of `to`.
+Quat turnBetween(const Vec3& from, const Vec3& to);
+
 // A unit vector normal to the unit vector n, the same for the same n.
 Vec3 anyNormalTo(const Vec3& n);
 

@@ -6,8 +6,6 @@
 namespace physics {
 namespace {
 
-bool finite(const Vec3& v) { return v.allFinite(); }
-
 bool isPoint(const Shape& shape) { return std::holds_alternative<PointShape>(shape); }
 
 void checkSettings(const Settings& s) {
@@ -18,20 +16,21 @@ void checkSettings(const Settings& s) {
   require(s.relaxation > 0 && s.relaxation < 2, "relaxation must lie between 0 and 2");
   require(s.regularisation >= 0 && std::isfinite(s.regularisation), "regularisation must be >= 0");
   require(!s.maxCorrectionSpeed || *s.maxCorrectionSpeed > 0, "max_correction_speed must be > 0");
-  require(!s.gravity || finite(*s.gravity), "gravity must be finite");
+  require(!s.gravity || s.gravity->allFinite(), "gravity must be finite");
 }
 
 void checkInertia(const Vec3& inertia) {
   const double x = inertia.x(), y = inertia.y(), z = inertia.z(), slack = 1e-9 * inertia.sum();
-  require(finite(inertia) && inertia.minCoeff() >= 0, "inertia must be finite and not negative");
+  require(inertia.allFinite() && inertia.minCoeff() >= 0,
+          "inertia must be finite and not negative");
   require(x <= y + z + slack && y <= z + x + slack && z <= x + y + slack,
           "inertia breaks the triangle rule: no moment may exceed the sum of the other two");
 }
 
 void checkBody(const BodyDef& def) {
-  require(finite(def.pose.x) && def.pose.q.coeffs().allFinite(), "pose must be finite");
+  require(def.pose.x.allFinite() && def.pose.q.coeffs().allFinite(), "pose must be finite");
   require(def.pose.q.norm() > 1e-6, "orientation must not be the zero quaternion");
-  require(finite(def.velocity.v) && finite(def.velocity.w), "velocities must be finite");
+  require(def.velocity.v.allFinite() && def.velocity.w.allFinite(), "velocities must be finite");
   if (def.motion != Motion::kDynamic) return;
   require(std::isfinite(def.mass) && def.mass > 0, "mass must be positive");
   require(!std::holds_alternative<Plane>(def.shape), "a plane cannot move by itself");

@@ -80,6 +80,8 @@ struct Face {
 
 }  // namespace
 
+std::string shippedFont() { return DBD_ASSET_DIR "/fonts/DejaVuSans.ttf"; }
+
 struct Canvas::Impl {
   explicit Impl(const std::string& fontFile);
 

@@ -8,9 +8,9 @@
 namespace render {
 namespace {
 
-const Color kInk(0.12f, 0.12f, 0.13f, 1), kPaper(1, 1, 1, 0.9f);
+const Color kLegendInk(0.12f, 0.12f, 0.13f, 1), kPaper(1, 1, 1, 0.9f);
 constexpr float kSample = 1.3f, kStep = 1.2f, kMargin = 0.45f, kPadding = 0.3f, kColumnGap = 0.8f;
-constexpr float kMarkerRadius = 0.2f, kCurveWidth = 0.09f;  // all in lines of text
+constexpr float kMarkerRadius = 0.2f, kLegendCurveWidth = 0.09f;  // all in lines of text
 
 bool isNamed(const ChartCurve& curve) { return !curve.name.empty(); }
 
@@ -84,11 +84,12 @@ void drawEntry(Canvas& canvas, const ChartCurve& curve, const Pixel& at, float s
   const float y = std::round(at.y() - 0.32f * size);
   const Pixel start(at.x(), y), end(at.x() + kSample * size, y);
   if (curve.line && curve.dashed)
-    canvas.dashedCurve({start, end}, curve.color, kCurveWidth * size, 0.4f * size, 0.25f * size);
+    canvas.dashedCurve({start, end}, curve.color, kLegendCurveWidth * size, 0.4f * size,
+                       0.25f * size);
   else if (curve.line)
-    canvas.curve({start, end}, curve.color, kCurveWidth * size);
+    canvas.curve({start, end}, curve.color, kLegendCurveWidth * size);
   drawMarker(canvas, curve, (start + end) / 2, size);
-  canvas.markedText({std::round(end.x() + 0.4f * size), at.y()}, size, kInk, curve.name);
+  canvas.markedText({std::round(end.x() + 0.4f * size), at.y()}, size, kLegendInk, curve.name);
 }
 
 }  // namespace

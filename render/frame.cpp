@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace render {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 void requireFinite(bool finite, const std::string& what) {
   if (!finite) throw std::invalid_argument("picture: a number that is not finite in " + what);
@@ -77,7 +76,8 @@ void setCamera(Frame& frame, const Picture& picture) {
   frame.right = normalTo(frame.ahead, camera.up);
   frame.up = frame.right.cross(frame.ahead);
   frame.pixelsPerMetre =
-      static_cast<float>(frame.height) / (2 * std::tan(camera.fieldOfViewDegrees * kPi / 360));
+      static_cast<float>(frame.height) /
+      (2 * std::tan(camera.fieldOfViewDegrees * std::numbers::pi_v<float> / 360));
 }
 
 Ball ballOf(const Surface& surface) {

@@ -13,14 +13,15 @@ namespace render {
 namespace {
 
 // All in pixels at 720 lines.
-constexpr float kMargin = 16, kPadding = 12, kWidth = 268;
+constexpr float kHudMargin = 16, kHudPadding = 12, kWidth = 268;
 constexpr float kTitleSize = 17, kTitleStep = 26, kRowSize = 14, kRowStep = 20;
 constexpr float kPlotSize = 12, kPlotTitleStep = 18, kPlotHeight = 76, kPlotStep = 108,
                 kGutter = 34;
 
-const Color kInk(0.13f, 0.14f, 0.16f, 1), kQuiet(0.42f, 0.43f, 0.46f, 1);
-const Color kPanel(1, 1, 1, 0.86f), kRim(0.80f, 0.81f, 0.83f, 1), kPaper(0.985f, 0.985f, 0.99f, 1);
-const Color kRule(0.90f, 0.90f, 0.92f, 1);
+const Color kHudInk(0.13f, 0.14f, 0.16f, 1), kQuiet(0.42f, 0.43f, 0.46f, 1);
+const Color kPanel(1, 1, 1, 0.86f), kRim(0.80f, 0.81f, 0.83f, 1),
+    kPlotPaper(0.985f, 0.985f, 0.99f, 1);
+const Color kPlotRule(0.90f, 0.90f, 0.92f, 1);
 
 bool shown(float value, bool logarithmic) {
   return std::isfinite(value) && (!logarithmic || value > 0);
@@ -99,8 +100,8 @@ std::size_t spanOf(const Plot& plot) {
 void drawPlotTitle(const Pen& pen, const Plot& plot, float x, float y) {
   const std::string title =
       plot.unit.empty() ? plot.title : fmt::format("{} [{}]", plot.title, plot.unit);
-  pen.left(x, y, kPlotSize, kInk, title);
-  float end = x + kWidth - 2 * kPadding;
+  pen.left(x, y, kPlotSize, kHudInk, title);
+  float end = x + kWidth - 2 * kHudPadding;
   for (std::size_t i = plot.curves.size(); i-- > 0;) {
     const Plot::Curve& curve = plot.curves[i];
     if (curve.name.empty()) continue;
@@ -113,14 +114,14 @@ void drawPlot(const Pen& pen, const Plot& plot, float x, float y) {
   drawPlotTitle(pen, plot, x, y + kPlotSize);
   const AxisRange range = axisRangeOf(plot);
   const Pixel from = pen.at(x + kGutter, y + kPlotTitleStep);
-  const Pixel to = pen.at(x + kWidth - 2 * kPadding, y + kPlotTitleStep + kPlotHeight);
-  pen.canvas().fill(from, to, kPaper);
+  const Pixel to = pen.at(x + kWidth - 2 * kHudPadding, y + kPlotTitleStep + kPlotHeight);
+  pen.canvas().fill(from, to, kPlotPaper);
   const int rules = plot.logarithmic ? static_cast<int>(std::lround(range.high - range.low)) : 4;
   const int stride = (rules + 5) / 6;
   for (int i = stride; i < rules; i += stride) {
     const float share = static_cast<float>(i) / static_cast<float>(rules);
     const float level = std::round(to.y() + (from.y() - to.y()) * share) + 0.5f;
-    pen.canvas().curve({{from.x(), level}, {to.x(), level}}, kRule, 1);
+    pen.canvas().curve({{from.x(), level}, {to.x(), level}}, kPlotRule, 1);
   }
   for (const Plot::Curve& curve : plot.curves)
     drawCurve(pen, plot, curve, range, spanOf(plot), from, to);
@@ -160,17 +161,18 @@ void drawHud(Canvas& canvas, const Hud& hud, float scale) {
   const float rows = static_cast<float>(hud.rows.size());
   const float plots = static_cast<float>(hud.plots.size());
   const float title = hud.title.empty() ? 0 : kTitleStep;
-  const float height = 2 * kPadding + title + rows * kRowStep + plots * kPlotStep - 4;
-  const Pixel from = pen.at(kMargin, kMargin), to = pen.at(kMargin + kWidth, kMargin + height);
+  const float height = 2 * kHudPadding + title + rows * kRowStep + plots * kPlotStep - 4;
+  const Pixel from = pen.at(kHudMargin, kHudMargin),
+              to = pen.at(kHudMargin + kWidth, kHudMargin + height);
   canvas.fill(from, to, kPanel, 5 * scale);
   canvas.outline(from, to, kRim, std::max(1.0f, std::round(scale)), 5 * scale);
-  const float x = kMargin + kPadding, right = kMargin + kWidth - kPadding;
-  float y = kMargin + kPadding;
-  if (!hud.title.empty()) pen.left(x, y + kTitleSize - 3, kTitleSize, kInk, hud.title);
+  const float x = kHudMargin + kHudPadding, right = kHudMargin + kWidth - kHudPadding;
+  float y = kHudMargin + kHudPadding;
+  if (!hud.title.empty()) pen.left(x, y + kTitleSize - 3, kTitleSize, kHudInk, hud.title);
   y += title;
   for (const auto& [name, value] : hud.rows) {
     pen.left(x, y + kRowSize - 2, kRowSize, kQuiet, name);
-    pen.right(right, y + kRowSize - 2, kRowSize, kInk, value);
+    pen.right(right, y + kRowSize - 2, kRowSize, kHudInk, value);
     y += kRowStep;
   }
   for (const Plot& plot : hud.plots) {

@@ -6,8 +6,8 @@
 namespace render {
 namespace {
 
-constexpr float kMargin = 18, kCaptionSize = 18;  // pixels at 720 lines
-const Color kInk(0.13f, 0.14f, 0.16f, 1);
+constexpr float kCaptionMargin = 18, kCaptionSize = 18;  // pixels at 720 lines
+const Color kCaptionInk(0.13f, 0.14f, 0.16f, 1);
 
 void drawLabel(Canvas& canvas, const Label& label, const Frame& frame, int width, int height,
                float scale) {
@@ -33,8 +33,9 @@ void drawOverlay(Canvas& canvas, const Picture& picture, const Frame& frame, int
   canvas.begin(width, height);
   for (const Label& label : picture.labels) drawLabel(canvas, label, frame, width, height, scale);
   if (!picture.caption.empty())
-    canvas.textWithHalo({kMargin * scale, static_cast<float>(height) - kMargin * scale},
-                        kCaptionSize * scale, kInk, picture.caption);
+    canvas.textWithHalo(
+        {kCaptionMargin * scale, static_cast<float>(height) - kCaptionMargin * scale},
+        kCaptionSize * scale, kCaptionInk, picture.caption);
   if (picture.hud.visible) drawHud(canvas, picture.hud, scale);
   canvas.draw();
 }

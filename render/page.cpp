@@ -12,8 +12,6 @@
 namespace render {
 namespace {
 
-const std::string kShippedFont = DBD_ASSET_DIR "/fonts/DejaVuSans.ttf";
-
 std::uint8_t byteOf(float share) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
 }
@@ -95,7 +93,7 @@ void PagePrinter::Impl::resize(int newWidth, int newHeight) {
 }
 
 PagePrinter::PagePrinter(const std::string& fontFile)
-    : impl_(std::make_unique<Impl>(fontFile.empty() ? kShippedFont : fontFile)) {}
+    : impl_(std::make_unique<Impl>(fontFile.empty() ? shippedFont() : fontFile)) {}
 
 PagePrinter::~PagePrinter() = default;
 

@@ -18,15 +18,14 @@
 #include "render/surfaces.h"
 
 namespace render {
-namespace {
-
-const std::string kShippedFont = DBD_ASSET_DIR "/fonts/DejaVuSans.ttf";
 
 // An image without multisampling that passes are collected in.
 struct Sheet {
   GLuint framebuffer = 0;
   int width = 0, height = 0;
 };
+
+namespace {
 
 Sheet makeSheet(int width, int height) {
   const GLuint texture = makeTexture(GL_RGBA8, width, height, GL_LINEAR);
@@ -165,7 +164,7 @@ void Renderer::Impl::drawShadows(const Frame& frame) {
 }
 
 void Renderer::Impl::drawLetters(const Picture& drawn, const Frame& frame) {
-  if (!canvas) canvas.emplace(kShippedFont);
+  if (!canvas) canvas.emplace(shippedFont());
   drawOverlay(*canvas, drawn, frame, picture.width, picture.height);
   ++counts.overlays;
 }

@@ -97,7 +97,7 @@ double outOfTurn(const Sample& s) {
 }
 
 constexpr About kEach = About::kEachBody, kGroup = About::kGroup;
-constexpr Metric kMetrics[] = {
+constexpr Metric kBodyMetrics[] = {
     {"height", "m", "y of a body's centre of mass", kEach, nullptr, heightOf},
     {"x", "m", "x of a body's centre of mass", kEach, nullptr, xOf},
     {"y", "m", "y of a body's centre of mass", kEach, nullptr, heightOf},
@@ -136,7 +136,7 @@ constexpr Metric kMetrics[] = {
 
 }  // namespace
 
-std::span<const Metric> bodyMetrics() { return kMetrics; }
+std::span<const Metric> bodyMetrics() { return kBodyMetrics; }
 
 bool matches(const std::string& pattern, const std::string& name) {
   size_t p = 0, n = 0, star = std::string::npos, resume = 0;

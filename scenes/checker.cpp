@@ -8,7 +8,6 @@
 #include "scenes/sampler.h"
 
 namespace scenes {
-namespace {
 
 // The largest and the smallest value so far, and when.
 struct Extremes {
@@ -41,6 +40,8 @@ struct Watch {
     failure = Checker::Failure{sample.now.frame, value, culprit.bodies, culprit.constraint};
   }
 };
+
+namespace {
 
 // `finite` needs no bound.
 Expectation withBound(Expectation expectation) {

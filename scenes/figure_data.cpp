@@ -12,7 +12,6 @@
 namespace scenes {
 namespace {
 
-using Over = FigureMeasure::Over;
 using Quantity = FigureMeasure::Quantity;
 
 bool inSpan(size_t frame, int fps, const std::optional<double>& from,
@@ -51,20 +50,20 @@ std::vector<double> valuesOf(const Quantity& of, const FigureMeasure& measure,
   return chosen;
 }
 
-double reduce(const std::vector<double>& values, Over over) {
+double reduce(const std::vector<double>& values, FigureMeasure::Over over) {
   if (values.empty()) return std::nan("");
   for (const double value : values) {
     if (std::isnan(value)) return value;
   }
   switch (over) {
-    case Over::kMax:
+    case FigureMeasure::Over::kMax:
       return *std::max_element(values.begin(), values.end());
-    case Over::kMin:
+    case FigureMeasure::Over::kMin:
       return *std::min_element(values.begin(), values.end());
-    case Over::kMean:
+    case FigureMeasure::Over::kMean:
       return std::accumulate(values.begin(), values.end(), 0.0) /
              static_cast<double>(values.size());
-    case Over::kLast:
+    case FigureMeasure::Over::kLast:
       break;
   }
   return values.back();

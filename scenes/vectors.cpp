@@ -15,7 +15,7 @@ using physics::Vec3;
 using render::Color;
 using Wish = LabelPlacer::Wish;
 
-const Color kInk{0.10f, 0.10f, 0.11f, 1}, kError{0.78f, 0.18f, 0.08f, 1},
+const Color kInk{0.10f, 0.10f, 0.11f, 1}, kErrorInk{0.78f, 0.18f, 0.08f, 1},
     kNormal{0.05f, 0.42f, 0.30f, 1}, kAngle{0.48f, 0.18f, 0.50f, 1};
 constexpr size_t kMostLettered = 2;  // joints and contacts that still get letters
 // Pixels at 720 lines before `ink`.
@@ -107,13 +107,13 @@ class Sketch {
     drawLever(a, pA, "i");
     drawLever(b, pB, "j");
     const bool open = (pA - pB).norm() > 0.01 * scale_;
-    if (open) line(pB, pA, kError, kStroke, true);
+    if (open) line(pB, pA, kErrorInk, kStroke, true);
     dot(pA, inkOf(a));
     if (!open) return letter(pA, {0, -1}, "*p*_{i} = *p*_{j}", kInk);
     dot(pB, inkOf(b));
     letterAway(pA, pB, "*p*_{i}", inkOf(a));
     letterAway(pB, pA, "*p*_{j}", inkOf(b));
-    letterBeside(pB, pA, "δ*p*", kError);
+    letterBeside(pB, pA, "δ*p*", kErrorInk);
   }
 
   // The edges, the points, and where the constraint would push each of them.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/rotation.h"
 #include "scenes/camera.h"
 #include "scenes/metrics.h"
 #include "scenes/overlays.h"
@@ -80,7 +81,7 @@ render::Instance plate(const physics::Plane& plane, const physics::Pose& pose,
   render::Instance plate;
   plate.size = Vec3(2.4 * radius, thickness, 2.4 * radius).cast<float>();
   plate.position = (centre - (above + 0.5 * thickness) * normal).cast<float>();
-  plate.orientation = physics::Quat::FromTwoVectors(Vec3::UnitY(), normal).cast<float>();
+  plate.orientation = physics::turnBetween(Vec3::UnitY(), normal).cast<float>();
   return plate;
 }
 
@@ -133,7 +134,7 @@ render::Instance rod(Primitive primitive, const Vec3& from, const Vec3& to, doub
   rod.primitive = primitive;
   rod.size = Vec3(diameter, along.norm(), diameter).cast<float>();
   rod.position = (0.5 * (from + to)).cast<float>();
-  rod.orientation = physics::Quat::FromTwoVectors(Vec3::UnitY(), along).cast<float>();
+  rod.orientation = physics::turnBetween(Vec3::UnitY(), along).cast<float>();
   rod.color = color;
   return rod;
 }

@@ -6,7 +6,7 @@
 namespace physics::collision {
 namespace {
 
-constexpr double kParallel = 1e-8;  // sine squared
+constexpr double kParallelEdges = 1e-8;  // sine squared
 
 // Index of the edge along `axis` through the corner furthest along d (body frame).
 int edgeTowards(const Solid& box, int axis, const Vec3& d) {
@@ -27,7 +27,7 @@ Axis bestEdges(const Solid& a, const Solid& b, const Relative& pose, const Mat3&
     for (int i = 0; i < 3; ++i) {
       const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
       const double square = 1 - size(i, j) * size(i, j);
-      if (square < kParallel) continue;
+      if (square < kParallelEdges) continue;
       const double along = pose.t[i1] * pose.R(i2, j) - pose.t[i2] * pose.R(i1, j);
       const double reachB = b.half[i1] * size(i2, j) + b.half[i2] * size(i1, j);
       const double reachA = a.half[j1] * size(i, j2) + a.half[j2] * size(i, j1);

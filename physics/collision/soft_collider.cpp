@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/collision/narrow.h"
+#include "physics/rotation.h"
 
 namespace physics {
 
@@ -35,7 +36,7 @@ Placed place(const SoftElement& element, std::span<const Pose> start) {
   placed.solid.coreRadius = 0.5 * length;
   placed.solid.size = placed.solid.coreRadius + element.radius;
   placed.solid.thickness = 2 * element.radius;
-  if (line) placed.pose.q = Quat::FromTwoVectors(Vec3::UnitY(), along);
+  if (line) placed.pose.q = turnBetween(Vec3::UnitY(), along);
   return placed;
 }
 

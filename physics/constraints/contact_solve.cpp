@@ -10,7 +10,7 @@ namespace {
 
 // Impulses, times h^2, on a at points of contact, and the turn they give a; b gets the opposite: it
 // moves by -impulse/m_b and turns by -turnB.
-struct Push {
+struct Step {
   Vec3 impulse = Vec3::Zero();
   Vec3 turnA = Vec3::Zero(), turnB = Vec3::Zero();
 };
@@ -20,7 +20,7 @@ struct Visit {
   Vec3 n, t1, t2;
   Mat3 rotationA, rotationB;
   double inverseMass;  // 1/m_a + 1/m_b
-  Push lasting, once;  // of this visit: of the motion, and of what stood wrong at the start
+  Step lasting, once;  // of this visit: of the motion, and of what stood wrong at the start
   Vec3 correctionX, correctionA, correctionB;  // corrections before this visit, b against a; turns
   bool corrects = false;                       // something stood wrong here, or nearby
   std::array<Vec3, Manifold::kMaxPoints> armA, armB;  // p_a from either centre
@@ -86,7 +86,7 @@ Direction directionAt(const Visit& visit, int k, const Vec3& d, const Bodies& bo
 }
 
 // J dX of a push, and of the corrections made before this visit.
-double moved(const Visit& visit, const Direction& row, const Push& push) {
+double moved(const Visit& visit, const Direction& row, const Step& push) {
   return visit.inverseMass * push.impulse.dot(row.d) + row.a.dot(push.turnA) +
          row.b.dot(push.turnB);
 }
@@ -94,7 +94,7 @@ double corrected(const Visit& visit, const Direction& row) {
   return row.d.dot(visit.correctionX) + row.a.dot(visit.correctionA) - row.b.dot(visit.correctionB);
 }
 
-void add(Push& push, const Direction& row, double change) {
+void add(Step& push, const Direction& row, double change) {
   push.impulse += change * row.d;
   push.turnA += change * row.wa;
   push.turnB += change * row.wb;
@@ -130,7 +130,7 @@ struct FrictionRows {
 // full step. Sliding takes the step along c, (99),(100): there friction must oppose the slip, and
 // the full step would turn it towards where the bodies give way most.
 bool solveTangent(const FrictionRows& rows, const Vec2& c, const Friction& friction, double normal,
-                  double xi, Vec3& total, Push& push) {
+                  double xi, Vec3& total, Step& push) {
   const double k11 = rows.r1.resistance, k22 = rows.r2.resistance, k12 = rows.k12;
   const Vec2 before(total.dot(rows.r1.d), total.dot(rows.r2.d));
   Vec2 next =
@@ -173,12 +173,12 @@ double solveFriction(const ContactPair& pair, ContactPointState& p, int k, const
   return (p.frictionTotal - before).norm() * rows.r1.resistance;
 }
 
-void displacePair(const ContactPair& pair, const Push& lasting, const Push& once, bool corrects,
+void displacePair(const ContactPair& pair, const Step& lasting, const Step& once, bool corrects,
                   Bodies& bodies) {
   const double ma = bodies.inverse[pair.a].m, mb = bodies.inverse[pair.b].m;
   bodies.shift[pair.a] += ma * lasting.impulse;
   bodies.shift[pair.b] -= mb * lasting.impulse;
-  Push sum = lasting;
+  Step sum = lasting;
   if (corrects) {
     Correction &a = bodies.correction[pair.a], &b = bodies.correction[pair.b];
     a.dx += ma * once.impulse;
@@ -246,7 +246,7 @@ double solve(ContactPair& pair, Bodies& bodies, double xi, double allowance, boo
   if (backward) largest = solveFrictions(pair, bodies, xi, backward, visit);
   largest = std::max(largest, solveNormals(pair, bodies, xi, allowance, backward, visit));
   if (!backward) largest = std::max(largest, solveFrictions(pair, bodies, xi, backward, visit));
-  const Push &lasting = visit.lasting, &once = visit.once;
+  const Step &lasting = visit.lasting, &once = visit.once;
   const double sum = lasting.impulse.sum() + lasting.turnA.sum() + lasting.turnB.sum() +
                      once.impulse.sum() + once.turnA.sum() + once.turnB.sum();
   if (!std::isfinite(sum)) return sum - sum;

@@ -10,24 +10,24 @@ namespace physics {
 namespace {
 
 // One direction d of the contact: M^-1 J^T of body b and A.
-struct Direction {
+struct SoftDirection {
   Vec3 d, turn;
   double resistance;
 };
 
-Direction directionOf(const SoftContact& contact, const Vec3& d, const Vec3& arm,
-                      const Bodies& bodies) {
+SoftDirection directionOf(const SoftContact& contact, const Vec3& d, const Vec3& arm,
+                          const Bodies& bodies) {
   const double t = contact.along;
   const InverseMass& b = bodies.inverse[contact.body];
   const Vec3 lever = arm.cross(d);
-  Direction row{d, b.inertia * lever, 0};
+  SoftDirection row{d, b.inertia * lever, 0};
   const double first = bodies.inverse[contact.from].m, second = bodies.inverse[contact.to].m;
   const double link = first * (1 - t) * (1 - t) + second * t * t;
   row.resistance = std::max(link, kLeastShare * (first + second)) + b.m + lever.dot(row.turn);
   return row;
 }
 
-void push(const SoftContact& contact, const Vec3& impulse, const Vec3& arm, Bodies& bodies) {
+void give(const SoftContact& contact, const Vec3& impulse, const Vec3& arm, Bodies& bodies) {
   const double t = contact.along;
   const Vec3 first = bodies.inverse[contact.from].m * (1 - t) * impulse;
   bodies.shift[contact.from] += first;
@@ -68,7 +68,7 @@ bool solveFriction(SoftContact& contact, Bodies& bodies, double xi) {
   const Vec3 change = next - contact.frictionTotal;
   if (!change.allFinite()) return false;
   contact.frictionTotal = next;
-  push(contact, change, arm, bodies);
+  give(contact, change, arm, bodies);
   return true;
 }
 
@@ -113,14 +113,14 @@ bool solve(SoftContact& contact, Bodies& bodies, double xi, double allowance) {
   if (c >= 0 && contact.normalTotal == 0) return true;
   const Vec3 n = bodies.pose[contact.body].q * contact.normal;
   const Vec3 arm = pointOf(contact, bodies.pose) - contact.radius * n - bodies.pose[contact.body].x;
-  const Direction row = directionOf(contact, n, arm, bodies);
+  const SoftDirection row = directionOf(contact, n, arm, bodies);
   if (!(row.resistance > 1e-300)) return row.resistance == row.resistance;
   const double wanted = c + std::max(0.0, -contact.gapAtStart - allowance);
   const double next = std::max(contact.normalTotal - xi * wanted / row.resistance, 0.0);  // (95)
   const double change = next - contact.normalTotal;
   if (!std::isfinite(change)) return false;
   contact.normalTotal = next;
-  push(contact, change * n, arm, bodies);
+  give(contact, change * n, arm, bodies);
   const bool slides = contact.friction.staticCoefficient > 0 &&
                       (contact.normalTotal > 0 || !contact.frictionTotal.isZero(0));
   return !slides || solveFriction(contact, bodies, xi);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "physics/rotation.h"
+
 namespace physics {
 namespace {
 
@@ -77,7 +79,7 @@ void addJoint(Figure& figure, const SkeletonJoint& j) {
   figure.world.add(cone);
   // Zero twist is the shortest swing to the cone's middle: far from the singular swing of 180
   // degrees.
-  addTwist(figure, j, j.centre, Quat::FromTwoVectors(j.axis, j.centre));
+  addTwist(figure, j, j.centre, turnBetween(j.axis, j.centre));
 }
 
 void addDrive(Figure& figure, const SkeletonJoint& j, const Quat& turn) {

@@ -247,7 +247,7 @@ bool sweep(World::Impl& world, double dt, Stage stage, StepReport& report) {
   return finite;
 }
 
-void takeMoved(World::Impl& world, double dt) {
+void takeMovedAndAhead(World::Impl& world, double dt) {
   world.impulses.moved.resize(world.bodies.pose.size());
   world.ahead = world.bodies.pose;
   for (int i = 0; i < world.bodies.size(); ++i) {
@@ -278,7 +278,7 @@ bool sweepAll(World::Impl& world, double dt, Stage stage, StepReport& report) {
 
 void sequentialImpulses(World::Impl& world, double dt, StepReport& report) {
   accelerate(world, dt, Gyroscopic::kImplicit);
-  takeMoved(world, dt);
+  takeMovedAndAhead(world, dt);
   freezeAll(world, dt, Stage::kSolve, report);
   warmStart(world);
   if (!sweepAll(world, dt, Stage::kSolve, report)) return;
