@@ -133,7 +133,8 @@ void exchange(World::Impl& w, Group& group) {
 bool stepsLocally(const Settings& settings) {
   return settings.localSubsteps && settings.leavesOut && settings.substeps > 1 &&
          settings.stepping != Stepping::kStatic &&
-         (settings.method == Method::kNonlinearGaussSeidel || settings.method == Method::kDirect);
+         (settings.method == Method::kNonlinearGaussSeidel || settings.method == Method::kDirect ||
+          settings.method == Method::kSmallSteps);
 }
 
 void joinAll(World::Impl& w) {

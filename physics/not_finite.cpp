@@ -56,6 +56,10 @@ void nameHardest(const World::Impl& w, StepReport& report) {
     const ContactPair& pair = w.contacts.pairs[k];
     if (hardest.beats(std::array{pair.a, pair.b}, pushOf(pair))) name("contact", k);
   }
+  for (std::size_t k = 0; k < w.small.contacts().size(); ++k) {
+    const ContactPair pair = pairOf(w.small.contacts()[k], 1);
+    if (hardest.beats(std::array{pair.a, pair.b}, pushOf(pair))) name("contact", k);
+  }
   for (std::size_t k = 0; k < w.softContacts.size(); ++k) {
     const SoftContact& c = w.softContacts[k];
     const double size = std::abs(c.normalTotal) + c.frictionTotal.norm();
@@ -91,6 +95,7 @@ void restore(World::Impl& w) {
     b.velocity[set->first] = set->second;
   }
   w.contacts.pairs.clear();
+  w.small.forget();
   w.softContacts.clear();
   undo(w.arms);
   forEachKind(w.kinds, [](auto& kind) {

@@ -15,6 +15,7 @@ enum class Method {
   kSequentialImpulses,
   kPenalty,  // implicit steps
   kPenaltyExplicit,
+  kSmallSteps,  // solver/small_steps.h
 };
 enum class Stepping {
   kPaper,   // backward Euler
@@ -47,7 +48,7 @@ struct Settings {
   int iterations = 1;       // sweeps over all constraints per substep, at least
   int maxIterations = 40;   // and at the most, while contacts still move by more than
   double tolerance = 2e-7;  // this in a sweep [m]
-  Method method = Method::kNonlinearGaussSeidel;
+  Method method = Method::kSmallSteps;
   Stepping stepping = Stepping::kPaper;
   double relaxation = 1;      // xi (53)
   double regularisation = 0;  // epsilon, alpha = epsilon * J M^-1 J^T (54)

@@ -43,6 +43,7 @@ bool lookForContacts(World::Impl& w, int k, double h) {
 void solveOnce(World::Impl& w, double h, StepReport& report) {
   switch (w.settings.method) {
     case Method::kNonlinearGaussSeidel:
+    case Method::kSmallSteps:  // where it does not take what the world has
       return nonlinearGaussSeidel(w, h, report);
     case Method::kDirect:
       return direct(w, h, report);
@@ -229,6 +230,12 @@ StepReport World::step() {
   const Collider::Counts before = w.collider.counts();
   StepReport report;
   begin(w, report);
+  if (!report.notFinite && takesSmallSteps(w)) {
+    w.small.step(w, report);
+    end(w, report);
+    countLooks(before, w.collider.counts(), report);
+    return report;
+  }
   do {
     turnTo("local_substeps");
     takeGroups(w);

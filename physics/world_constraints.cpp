@@ -35,6 +35,7 @@ int append(World::Impl& w, const D& def, const C& item) {
   int index = -1;
   w.joined.clear();
   w.attached.clear();
+  w.small.topologyChanged();
   forEachKind(w.kinds, [&](auto& kind) {
     if constexpr (std::is_same_v<typename std::decay_t<decltype(kind)>::Item, C>) {
       kind.set.active.push_back(static_cast<int>(kind.set.items.size()));

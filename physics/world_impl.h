@@ -15,6 +15,7 @@
 #include "physics/methods/linear_gauss_seidel.h"
 #include "physics/methods/penalty.h"
 #include "physics/methods/sequential_impulses.h"
+#include "physics/solver/small_steps.h"
 #include "physics/stepping.h"
 #include "physics/world.h"
 
@@ -43,6 +44,7 @@ struct World::Impl {
   Stepper stepper;                          // second-order steppings only
   std::vector<ContactPair> contactsBefore;  // as the substep found them; second order only
   ImpulseSystem impulses;                   // sequential impulses only
+  SmallSteps small;                         // small steps only
   PenaltySystem penalty;                    // penalty forces only
   std::vector<double> kineticBefore;        // of bodies at the start of the substep [J]; empty
                                             // where energy needs no bound

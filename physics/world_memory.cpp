@@ -76,7 +76,7 @@ std::vector<EffectMemory> World::memory() const {
   };
   add("gyroscopic", bytesOf(w.bodies.anisotropic));
   add("contact", w.collider.bytes() + bytesOf(w.contacts) + w.softCollider.bytes() +
-                     bytesOf(w.softContacts) + w.conjugate.bytes() + bytesOf(w.attached) +
+                     bytesOf(w.softContacts) + w.conjugate.bytes() + w.small.bytes() + bytesOf(w.attached) +
                      bytesOf(w.kineticBefore));
   add("restitution", bytesOf(w.velocityBefore));
   add("stepping", bytesOf(w.bodies.second) + bytesOf(w.stepper) + bytesOf(w.contactsBefore));
@@ -91,6 +91,7 @@ bool World::isAsleep(BodyId body) const {
 }
 
 int World::substepsOf(BodyId body) const {
+  if (takesSmallSteps(*impl_)) return impl_->small.substepsOf(body);
   const std::vector<int>& last = impl_->local.last;
   return last.empty() ? impl_->settings.substeps : last[body];
 }

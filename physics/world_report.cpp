@@ -48,6 +48,11 @@ template <class F>
 void forEachPair(const World::Impl& w, F&& f) {
   for (const ContactPair& pair : w.contacts.pairs) f(pair);
   for (const ContactPair& pair : w.sleep.contacts) f(pair);
+  for (const auto* contacts : {&w.small.contacts(), &w.small.sleeping}) {
+    for (const KeptContact& c : *contacts) {
+      f(pairOf(c, w.settings.dt / w.small.substepsOf(std::max(c.a, c.b))));
+    }
+  }
 }
 
 }  // namespace

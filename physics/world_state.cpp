@@ -16,6 +16,7 @@ bool isFinite(const Pose& pose, const Velocity& velocity) {
 
 void forget(World::Impl& w) {
   w.contacts = {};
+  w.small.forget();
   w.softContacts.clear();
   w.loads.assign(w.loads.size(), Load{});
   w.loaded.clear();
@@ -46,7 +47,14 @@ void findContactsHere(World::Impl& w) {
   takeStaticPoses(w);
   const auto& pose = w.bodies.pose;
   const double margin = w.settings.contact->margin;
-  if (w.touches) update(w.contacts, w.collider.find(pose, pose, margin), w.bodies);
+  if (w.touches) {
+    const auto found = w.collider.find(pose, pose, margin);
+    if (takesSmallSteps(w)) {
+      keep({}, found, w.bodies, w.small.contacts());
+    } else {
+      update(w.contacts, found, w.bodies);
+    }
+  }
   if (w.softCollider.empty()) return;
   startSoftContacts(w.softCollider.find(pose, pose, margin), w.softCollider, w.bodies,
                     w.softContacts);

@@ -15,7 +15,7 @@ using physics::Unit;
 
 constexpr const char* kMethods[] = {
     "nonlinear_gauss_seidel", "direct",  "linear_gauss_seidel", "xpbd",
-    "sequential_impulses",    "penalty", "penalty_explicit"};
+    "sequential_impulses",    "penalty", "penalty_explicit",     "small_steps"};
 constexpr const char* kSteppings[] = {"paper", "static", "bdf2", "symmetric"};
 constexpr const char* kRegularisations[] = {"compliance", "damping"};
 constexpr const char* kInertias[] = {"plain", "spinning"};

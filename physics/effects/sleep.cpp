@@ -7,6 +7,7 @@
 
 #include "physics/effects/second_order.h"
 #include "physics/islands.h"
+#include "physics/methods/rival.h"
 #include "physics/presence.h"
 #include "physics/world_impl.h"
 
@@ -38,6 +39,7 @@ bool countStill(World::Impl& w, int enough) {
 Islands watchedIslands(World::Impl& w) {
   Islands islands = jointIslands(w);
   for (const ContactPair& pair : w.contacts.pairs) join(w.bodies, islands, pair.a, pair.b);
+  for (const KeptContact& c : w.small.contacts()) join(w.bodies, islands, c.a, c.b);
   for (const SoftContact& c : w.softContacts) {
     join(w.bodies, islands, c.from, c.to);
     join(w.bodies, islands, c.from, c.body);
@@ -71,22 +73,24 @@ void stop(World::Impl& w, BodyId i) {
   forgetPast(b.second, i);
 }
 
-bool byBodies(const ContactPair& p, const ContactPair& q) {
+template <class Pair>
+bool byBodies(const Pair& p, const Pair& q) {
   return p.a != q.a ? p.a < q.a : p.b < q.b;
 }
 
 // Contact pairs that `leave` from one sorted list to another.
-template <class F>
-void carry(std::vector<ContactPair>& from, std::vector<ContactPair>& to, F&& leaves) {
-  const auto stays = [&](const ContactPair& pair) { return !leaves(pair); };
+template <class Pair, class F>
+void carry(std::vector<Pair>& from, std::vector<Pair>& to, F&& leaves) {
+  const auto stays = [&](const Pair& pair) { return !leaves(pair); };
   const auto gone = std::stable_partition(from.begin(), from.end(), stays);
   const auto middle = static_cast<std::ptrdiff_t>(to.size());
   to.insert(to.end(), gone, from.end());
   from.erase(gone, from.end());
-  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byBodies);
+  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byBodies<Pair>);
 }
 
-bool isAsleep(const World::Impl& w, const ContactPair& pair) {
+template <class Pair>
+bool isAsleep(const World::Impl& w, const Pair& pair) {
   return w.sleep.asleep[pair.a] || w.sleep.asleep[pair.b];
 }
 
@@ -128,7 +132,7 @@ void makeRoom(Sleep& sleep, std::size_t bodies) {
 
 bool sleeps(const Settings& settings) {
   return settings.sleep && settings.leavesOut && settings.stepping != Stepping::kStatic &&
-         (settings.method == Method::kNonlinearGaussSeidel || settings.method == Method::kDirect);
+         !isRival(settings.method) && settings.method != Method::kLinearGaussSeidel;
 }
 
 void fallAsleep(World::Impl& w, StepReport& report) {
@@ -148,7 +152,9 @@ void fallAsleep(World::Impl& w, StepReport& report) {
     w.sleep.count += static_cast<int>(resting.size());
     if (!resting.empty()) {
       if (w.touches) w.collider.rest(resting, w.bodies.pose);
-      carry(w.contacts.pairs, w.sleep.contacts, [&](auto& pair) { return isAsleep(w, pair); });
+      const auto sleeps = [&](const auto& pair) { return isAsleep(w, pair); };
+      carry(w.contacts.pairs, w.sleep.contacts, sleeps);
+      carry(w.small.contacts(), w.small.sleeping, sleeps);
       std::erase_if(w.softContacts, [&](auto& c) { return w.sleep.asleep[c.from] != 0; });
       listAwake(w);
     }
@@ -173,7 +179,9 @@ void wakeCalled(World::Impl& w) {
   for (const BodyId i : woken) w.sleep.asleep[i] = w.sleep.still[i] = 0;
   w.sleep.count -= static_cast<int>(woken.size());
   if (w.touches) w.collider.wake(woken);
-  carry(w.sleep.contacts, w.contacts.pairs, [&](auto& pair) { return !isAsleep(w, pair); });
+  const auto isAwake = [&](const auto& pair) { return !isAsleep(w, pair); };
+  carry(w.sleep.contacts, w.contacts.pairs, isAwake);
+  carry(w.small.sleeping, w.small.contacts(), isAwake);
   listAwake(w);
 }
 

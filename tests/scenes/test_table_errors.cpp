@@ -80,8 +80,8 @@ TEST(SceneFile, ListsTheMethodsForAnUnknownOne) {
   EXPECT_EQ(
       errorOf("[simulation]\nmethod = \"magic\"\n"),
       "test.toml:2:10: simulation.method: expected one of 'nonlinear_gauss_seidel', 'direct', "
-      "'linear_gauss_seidel', 'xpbd', 'sequential_impulses', 'penalty', 'penalty_explicit', got "
-      "'magic'");
+      "'linear_gauss_seidel', 'xpbd', 'sequential_impulses', 'penalty', 'penalty_explicit', "
+      "'small_steps', got 'magic'");
 }
 
 TEST(SceneFile, RefusesGravityThatIsNotAVector) {

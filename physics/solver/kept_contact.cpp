@@ -1,0 +1,121 @@
+// Contacts from step to step.
+#include "physics/solver/kept_contact.h"
+
+#include <cmath>
+#include <limits>
+
+namespace physics {
+namespace {
+
+bool hasFaces(const Shape& shape) {
+  return std::holds_alternative<Box>(shape) || std::holds_alternative<Convex>(shape) ||
+         std::holds_alternative<Plane>(shape);
+}
+
+bool isBall(const Shape& shape) {
+  return std::holds_alternative<Sphere>(shape) || std::holds_alternative<PointShape>(shape);
+}
+
+void take(const KeptContact& old, int m, KeptContact& fresh, int k) {
+  fresh.lambda[k] = old.lambda[m];
+  fresh.before[k] = old.before[m];
+}
+
+// A point goes on from the one with its feature, else from the nearest on body a that none has:
+// clipped corners change their names when faces slide past each other.
+void match(const KeptContact& old, KeptContact& fresh) {
+  unsigned taken = 0, found = 0;
+  for (int k = 0; k < fresh.count; ++k) {
+    for (int m = 0; m < old.count; ++m) {
+      if (taken >> m & 1 || old.points[m].feature != fresh.points[k].feature) continue;
+      take(old, m, fresh, k);
+      taken |= 1u << m;
+      found |= 1u << k;
+      break;
+    }
+  }
+  for (int k = 0; k < fresh.count; ++k) {
+    if (found >> k & 1) continue;
+    int nearest = -1;
+    double best = std::numeric_limits<double>::infinity();
+    for (int m = 0; m < old.count; ++m) {
+      if (taken >> m & 1) continue;
+      const double d = (old.points[m].coreA - fresh.points[k].coreA).squaredNorm();
+      if (d < best) best = d, nearest = m;
+    }
+    if (nearest < 0) continue;
+    take(old, nearest, fresh, k);
+    taken |= 1u << nearest;
+  }
+  fresh.tangential = old.tangential;
+  fresh.twist = old.twist;
+  fresh.step = old.step;
+}
+
+void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
+  fresh.a = found.a;
+  fresh.b = found.b;
+  const Shape &a = bodies.shape[found.a], &b = bodies.shape[found.b];
+  fresh.radial = isBall(a) && isBall(b);
+  fresh.carried = hasFaces(b);
+  fresh.normal = fresh.carried ? found.normal : Vec3(bodies.pose[found.b].q * found.normal);
+  const Friction &fa = bodies.friction[found.a], &fb = bodies.friction[found.b];
+  fresh.friction.staticCoefficient = std::sqrt(fa.staticCoefficient * fb.staticCoefficient);
+  fresh.friction.dynamicCoefficient = std::sqrt(fa.dynamicCoefficient * fb.dynamicCoefficient);
+  fresh.count = found.count;
+  for (int k = 0; k < found.count; ++k) fresh.points[k] = found.points[k];
+  fresh.lambda = {};
+  fresh.before = {};
+  fresh.tangential.setZero();
+  fresh.twist = fresh.step = 0;
+}
+
+}  // namespace
+
+void keep(std::span<const KeptContact> previous, std::span<const Manifold> found,
+          const Bodies& bodies, std::vector<KeptContact>& now) {
+  now.resize(found.size());
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    KeptContact& fresh = now[i];
+    take(found[i], bodies, fresh);
+    while (old < previous.size() && (previous[old].a != fresh.a ? previous[old].a < fresh.a
+                                                                : previous[old].b < fresh.b)) {
+      ++old;
+    }
+    if (old == previous.size()) continue;
+    if (previous[old].a == fresh.a && previous[old].b == fresh.b) match(previous[old], fresh);
+  }
+}
+
+Vec3 normalOf(const KeptContact& contact, std::span<const Pose> pose) {
+  if (contact.carried) return pose[contact.b].q * contact.normal;
+  if (contact.radial) {
+    const Vec3 between = pose[contact.a].x - pose[contact.b].x;
+    const double distance = between.norm();
+    if (distance > 0) return between / distance;
+  }
+  return contact.normal;
+}
+
+ContactPair pairOf(const KeptContact& contact, double step) {
+  ContactPair pair;
+  pair.a = contact.a;
+  pair.b = contact.b;
+  pair.radial = contact.radial;
+  pair.carried = contact.carried;
+  pair.normal = contact.normal;
+  pair.friction = contact.friction;
+  pair.count = contact.count;
+  const double scale = contact.step > 0 ? step / contact.step : 0;
+  double sum = 0;
+  for (int k = 0; k < contact.count; ++k) sum += contact.lambda[k];
+  for (int k = 0; k < contact.count; ++k) {
+    pair.points[k].shape = contact.points[k];
+    pair.points[k].normalTotal = scale * contact.lambda[k];
+    if (sum > 0) pair.points[k].frictionTotal = scale * contact.lambda[k] / sum * contact.tangential;
+  }
+  return pair;
+}
+
+}  // namespace physics

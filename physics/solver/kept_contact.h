@@ -1,0 +1,38 @@
+// A contact between two bodies as the small steps keep it from step to step: the manifold, and what
+// it carried.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/body.h"
+#include "physics/collision/collider.h"
+#include "physics/constraints/contact.h"
+
+namespace physics {
+
+struct KeptContact {
+  BodyId a = 0, b = 0;
+  bool radial = false, carried = false;  // as in ContactPair
+  int count = 0;
+  Vec3 normal = Vec3::UnitY();  // body frame of b when carried, else world
+  Friction friction;
+  double step = 0;  // the substep that the multipliers belong to [s]
+  // Impulses times the step, on a: along the normal, at the last substep and a step earlier; of
+  // friction at the centre (world), and of its twist about the normal.
+  std::array<double, Manifold::kMaxPoints> lambda{}, before{};
+  Vec3 tangential = Vec3::Zero();
+  double twist = 0;
+  std::array<ContactPoint, Manifold::kMaxPoints> points;
+};
+
+// What the collider found, with the multipliers of the points that go on. Both are sorted by (a, b).
+void keep(std::span<const KeptContact> previous, std::span<const Manifold> found,
+          const Bodies& bodies, std::vector<KeptContact>& now);
+
+// The same as the sweeps' pair, for reports: multipliers belong to a substep of `step`.
+ContactPair pairOf(const KeptContact& contact, double step);
+
+Vec3 normalOf(const KeptContact& contact, std::span<const Pose> pose);
+
+}  // namespace physics

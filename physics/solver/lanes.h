@@ -1,0 +1,122 @@
+// Eight single precision numbers at a time: one AVX2 register, or two SSE2 halves. Every operation is
+// rounded as IEEE says, lane by lane, so that both give the same bytes: no fused multiply-add, no
+// approximate reciprocal. Included by the kernels alone, which are compiled once for each.
+#pragma once
+
+#include <immintrin.h>
+
+namespace physics {
+namespace {
+
+#ifdef __AVX2__
+
+struct Lanes {
+  __m256 v;
+};
+inline Lanes operator+(Lanes a, Lanes b) { return {_mm256_add_ps(a.v, b.v)}; }
+inline Lanes operator-(Lanes a, Lanes b) { return {_mm256_sub_ps(a.v, b.v)}; }
+inline Lanes operator*(Lanes a, Lanes b) { return {_mm256_mul_ps(a.v, b.v)}; }
+inline Lanes operator/(Lanes a, Lanes b) { return {_mm256_div_ps(a.v, b.v)}; }
+inline Lanes larger(Lanes a, Lanes b) { return {_mm256_max_ps(a.v, b.v)}; }
+inline Lanes smaller(Lanes a, Lanes b) { return {_mm256_min_ps(a.v, b.v)}; }
+inline Lanes root(Lanes a) { return {_mm256_sqrt_ps(a.v)}; }
+inline Lanes all(float a) { return {_mm256_set1_ps(a)}; }
+inline Lanes load(const float* p) { return {_mm256_load_ps(p)}; }
+inline void store(float* p, Lanes a) { _mm256_store_ps(p, a.v); }
+// a where test > 0, else b.
+inline Lanes wherePositive(Lanes test, Lanes a, Lanes b) {
+  return {_mm256_blendv_ps(b.v, a.v, _mm256_cmp_ps(test.v, _mm256_setzero_ps(), _CMP_GT_OQ))};
+}
+// r[i][k] <-> r[k][i]
+inline void transpose(Lanes* r) {
+  const __m256 a = _mm256_unpacklo_ps(r[0].v, r[1].v), b = _mm256_unpackhi_ps(r[0].v, r[1].v);
+  const __m256 c = _mm256_unpacklo_ps(r[2].v, r[3].v), d = _mm256_unpackhi_ps(r[2].v, r[3].v);
+  const __m256 e = _mm256_unpacklo_ps(r[4].v, r[5].v), f = _mm256_unpackhi_ps(r[4].v, r[5].v);
+  const __m256 g = _mm256_unpacklo_ps(r[6].v, r[7].v), h = _mm256_unpackhi_ps(r[6].v, r[7].v);
+  const __m256 ac = _mm256_shuffle_ps(a, c, 0x44), ca = _mm256_shuffle_ps(a, c, 0xEE);
+  const __m256 bd = _mm256_shuffle_ps(b, d, 0x44), db = _mm256_shuffle_ps(b, d, 0xEE);
+  const __m256 eg = _mm256_shuffle_ps(e, g, 0x44), ge = _mm256_shuffle_ps(e, g, 0xEE);
+  const __m256 fh = _mm256_shuffle_ps(f, h, 0x44), hf = _mm256_shuffle_ps(f, h, 0xEE);
+  r[0].v = _mm256_permute2f128_ps(ac, eg, 0x20), r[1].v = _mm256_permute2f128_ps(ca, ge, 0x20);
+  r[2].v = _mm256_permute2f128_ps(bd, fh, 0x20), r[3].v = _mm256_permute2f128_ps(db, hf, 0x20);
+  r[4].v = _mm256_permute2f128_ps(ac, eg, 0x31), r[5].v = _mm256_permute2f128_ps(ca, ge, 0x31);
+  r[6].v = _mm256_permute2f128_ps(bd, fh, 0x31), r[7].v = _mm256_permute2f128_ps(db, hf, 0x31);
+}
+
+#else
+
+struct Lanes {
+  __m128 low, high;
+};
+inline Lanes operator+(Lanes a, Lanes b) {
+  return {_mm_add_ps(a.low, b.low), _mm_add_ps(a.high, b.high)};
+}
+inline Lanes operator-(Lanes a, Lanes b) {
+  return {_mm_sub_ps(a.low, b.low), _mm_sub_ps(a.high, b.high)};
+}
+inline Lanes operator*(Lanes a, Lanes b) {
+  return {_mm_mul_ps(a.low, b.low), _mm_mul_ps(a.high, b.high)};
+}
+inline Lanes operator/(Lanes a, Lanes b) {
+  return {_mm_div_ps(a.low, b.low), _mm_div_ps(a.high, b.high)};
+}
+inline Lanes larger(Lanes a, Lanes b) {
+  return {_mm_max_ps(a.low, b.low), _mm_max_ps(a.high, b.high)};
+}
+inline Lanes smaller(Lanes a, Lanes b) {
+  return {_mm_min_ps(a.low, b.low), _mm_min_ps(a.high, b.high)};
+}
+inline Lanes root(Lanes a) { return {_mm_sqrt_ps(a.low), _mm_sqrt_ps(a.high)}; }
+inline Lanes all(float a) { return {_mm_set1_ps(a), _mm_set1_ps(a)}; }
+inline Lanes load(const float* p) { return {_mm_load_ps(p), _mm_load_ps(p + 4)}; }
+inline void store(float* p, Lanes a) {
+  _mm_store_ps(p, a.low);
+  _mm_store_ps(p + 4, a.high);
+}
+inline __m128 wherePositive(__m128 test, __m128 a, __m128 b) {
+  const __m128 mask = _mm_cmpgt_ps(test, _mm_setzero_ps());
+  return _mm_or_ps(_mm_and_ps(mask, a), _mm_andnot_ps(mask, b));
+}
+inline Lanes wherePositive(Lanes test, Lanes a, Lanes b) {
+  return {wherePositive(test.low, a.low, b.low), wherePositive(test.high, a.high, b.high)};
+}
+inline void transpose(__m128& a, __m128& b, __m128& c, __m128& d) {
+  _MM_TRANSPOSE4_PS(a, b, c, d);
+}
+inline void transpose(Lanes* r) {
+  for (int i = 0; i < 8; i += 4) {
+    transpose(r[i].low, r[i + 1].low, r[i + 2].low, r[i + 3].low);
+    transpose(r[i].high, r[i + 1].high, r[i + 2].high, r[i + 3].high);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const __m128 kept = r[i].high;
+    r[i].high = r[i + 4].low;
+    r[i + 4].low = kept;
+  }
+}
+
+#endif
+
+struct Lanes3 {
+  Lanes x, y, z;
+};
+inline Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Lanes3 operator*(const Lanes3& a, Lanes s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Lanes dot(const Lanes3& a, const Lanes3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Lanes3 load(const float (&p)[3][8]) { return {load(p[0]), load(p[1]), load(p[2])}; }
+inline void store(float (&p)[3][8], const Lanes3& a) {
+  store(p[0], a.x);
+  store(p[1], a.y);
+  store(p[2], a.z);
+}
+
+}  // namespace
+}  // namespace physics
