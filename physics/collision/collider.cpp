@@ -24,10 +24,15 @@ double smallerSize(const Solid& a, const Solid& b) {
   return std::min(a.size, b.size);
 }
 
-// The most that two items can come closer during the step.
+// The most that two items can come closer during the step along n (from b to a, b's frame).
+double approach(const Item& a, const Item& b, const Vec3& n) {
+  return std::max(0.0, -(b.R * n).dot(a.move - b.move)) + a.turn + b.turn;
+}
+
+// The same in any direction; towards a plane there is but one.
 double approach(const Item& a, const Item& b) {
   if (b.solid.kind != Kind::plane) return (a.move - b.move).norm() + a.turn + b.turn;
-  return std::max(0.0, -(b.R * b.solid.normal).dot(a.move - b.move)) + a.turn;
+  return approach(a, b, b.solid.normal);
 }
 
 }  // namespace
@@ -76,7 +81,8 @@ struct Collider::Impl {
     const double near = plane ? reach : step.margin;
     watch.distance = touch(a.solid, b.solid, found.pose, near, watch.reach, found.manifold);
     ++narrowPhaseCalls;
-    const bool onTheWay = !plane && watch.distance > near && watch.distance <= reach;
+    const bool onTheWay = !plane && watch.distance > near && watch.distance <= reach &&
+                          approach(a, b, found.manifold.normal) >= watch.distance - near;
     if (onTheWay) lookAlong(found.manifold, a, b, step);
     watch.count = found.manifold.count;
     watch.known = !onTheWay || watch.count == 0;

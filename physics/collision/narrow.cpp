@@ -179,6 +179,9 @@ double heightOver(const Solid& a, const Solid& plane, const Relative& pose) {
 }
 
 bool isRound(const Solid& s) { return s.kind <= Kind::capsule; }
+bool isBoxy(const Solid& a, const Solid& b) {
+  return b.kind == Kind::box && (a.kind == Kind::box || a.kind == Kind::capsule);
+}
 
 }  // namespace
 
@@ -198,15 +201,27 @@ double touch(const Solid& a, const Solid& b, const Relative& pose, double reach,
     distance = touchPoint(a, b, pose, contacts);
   } else {
     const double radii = a.rounding + b.rounding;
-    const bool boxy = b.kind == Kind::box && (a.kind == Kind::box || a.kind == Kind::capsule);
-    const Axes axes = (boxy ? findBoxAxes : findAxes)(a, b, pose, reach + radii);
+    const bool boxy = isBoxy(a, b);
+    const Axes axes = (boxy ? findBoxAxes : findAxes)(a, b, pose, keep + radii);
     const double separation = axes.largest().separation - radii;
+    out.normal = axes.largest().n;
     if (separation > reach) return separation;
     if (boxy && touchBoxFace(a, b, pose, axes, limits, out)) return separation;
     distance = touchCores(a, b, pose, axes, contacts);
   }
+  out.normal = contacts.n;
   if (distance <= reach) finish(contacts, pose, limits, out);
   return distance;
+}
+
+Apart apart(const Solid& a, const Solid& b, const Relative& pose) {
+  if (isBoxy(a, b)) {
+    const Axes axes = findBoxAxes(a, b, pose, kInfinite);
+    return {axes.largest().separation - a.rounding, axes.largest().n};
+  }
+  Manifold manifold;
+  const double distance = touch(a, b, pose, kInfinite, kInfinite, manifold);
+  return {distance, manifold.normal};
 }
 
 double signedDistance(const Solid& a, const Solid& b, const Relative& pose) {

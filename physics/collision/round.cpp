@@ -127,9 +127,9 @@ double touchRound(const Solid& a, const Solid& b, const Relative& pose, double r
   const LinePoints closest = closestPoints(lineA, lineB);
   const Vec3 d = closest.onA - closest.onB;
   const double distance = d.norm(), gap = distance - a.rounding - b.rounding;
-  if (gap > reach) return gap;
   const bool clear = distance > kCoincident * (a.size + b.size);
   contacts.n = clear ? Vec3(d / distance) : anyDirection(lineA, lineB, pose.t);
+  if (gap > reach) return gap;
   contacts.radiusA = a.rounding;
   contacts.radiusB = b.rounding;
   touchLines(lineA, lineB, kLinesTag, flatness(a, b), contacts);
