@@ -9,7 +9,7 @@ namespace physics::collision {
 namespace {
 
 constexpr double kSlack = 0.04;      // of the size: how much bounds are fatter than they must be
-constexpr double kAhead = 1;         // steps of the present motion that the bounds hold
+constexpr double kAhead = 4;         // steps of the present motion that the bounds hold
 constexpr double kPlaneReach = 1e4;  // m: where bodies lie on a plane that turns
 
 Bounds grown(const Bounds& bounds, double by) {
@@ -31,7 +31,7 @@ Bounds swept(const Solid& solid, const Pose& start, const Pose& end) {
                 boundsAt(solid, end.x, end.q.toRotationMatrix()));
 }
 
-// Room for one more step like this one, and for a little more in all directions.
+// Room for more steps like this one, and for a little more in all directions.
 Bounds fattened(const Solid& solid, const Bounds& swept, const Vec3& move, double margin) {
   const Bounds ahead{swept.low + kAhead * move, swept.high + kAhead * move};
   return grown(joined(swept, ahead), margin + kSlack * solid.size);
@@ -124,7 +124,7 @@ void Pairs::dropParted() {
   for (const Key& key : keys_) {
     const int p = indexOf_[key.a], q = indexOf_[key.b];
     const bool asBefore = !moved_[p] && !moved_[q] && !ignoredMore_;
-    if (asBefore || (touches(p, q) && wanted(items_[p], items_[q]))) {
+    if (asBefore || (touches(p, q) && (!ignoredMore_ || wanted(items_[p], items_[q])))) {
       keys_[kept++] = key;
     } else {
       free_.push_back(key.watch);
@@ -137,9 +137,13 @@ void Pairs::findNew() {
   fresh_.clear();
   const auto offer = [&](int p, int q) {
     if (items_[p].rests && items_[q].rests) return;
-    if (wanted(items_[p], items_[q]) && touches(p, q)) fresh_.push_back(keyOf(p, q));
+    if (touches(p, q) && wanted(items_[p], items_[q])) fresh_.push_back(keyOf(p, q));
   };
-  for (const auto& [p, q] : found_) offer(itemOfTree_[p], itemOfTree_[q]);
+  for (const auto& [s, t] : found_) {
+    const int p = itemOfTree_[s], q = itemOfTree_[t];
+    const bool twice = moved_[p] && moved_[q];  // found from both
+    if (!twice || p < q) offer(p, q);
+  }
   for (const int plane : planes_) {
     for (const int t : movedTree_) offer(itemOfTree_[t], plane);
   }
