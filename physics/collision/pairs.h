@@ -32,6 +32,7 @@ struct Watch {
   double travel = 0;    // of both items together, then
   double distance = 0;  // then, or a lower bound
   double reach = 0;     // how far was looked
+  Vec3 n = Vec3::UnitY();  // b's frame: without points, they are `distance` apart along it
 };
 struct Finding {
   Relative pose;

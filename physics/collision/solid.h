@@ -51,6 +51,12 @@ Relative relativePose(const Pose& a, const Pose& b);
 // The point of the core that lies furthest along d (body frame, any length but zero).
 Vec3 support(const Solid& solid, const Vec3& d);
 
+// How far the solid reaches along the unit vector d (body frame); a plane only along its normal.
+inline double reachAlong(const Solid& s, const Vec3& d) {
+  if (s.kind <= Kind::capsule || s.kind == Kind::box) return s.half.dot(d.cwiseAbs()) + s.rounding;
+  return s.kind == Kind::plane ? s.offset : support(s, d).dot(d);
+}
+
 // Bounds of the solid at a pose, world frame.
 struct Bounds {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
