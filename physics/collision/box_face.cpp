@@ -9,15 +9,9 @@ namespace {
 
 using Corner = FacePoints::Corner;
 
-// Of boxHull(): the corners of its faces, counter-clockwise from outside; bit k of a corner tells
-// the side along axis k.
+// Of boxHull(): the corners of its faces, counter-clockwise from outside.
 constexpr int kCorners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                 {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-
-Vec3 cornerOf(const Solid& box, int corner) {
-  return {corner & 1 ? box.half.x() : -box.half.x(), corner & 2 ? box.half.y() : -box.half.y(),
-          corner & 4 ? box.half.z() : -box.half.z()};
-}
 
 // A face of a box: its normal is `sign` times axis k, and u and v run along the next two axes.
 struct Frame {
@@ -65,8 +59,9 @@ Corner cut(const Corner& from, const Corner& to, double fromOut, double toOut, i
 
 // Keeps what is inside of one side: Sutherland and Hodgman. `out` is the distance outside.
 void cutPolygon(FacePoints& points, const std::array<double, FacePoints::kRoom>& out, int side) {
-  const std::array<Corner, FacePoints::kRoom> before = points.corners;
+  std::array<Corner, FacePoints::kRoom> before;
   const int count = points.count;
+  std::copy_n(points.corners.begin(), count, before.begin());
   points.count = 0;
   for (int i = 0; i < count; ++i) {
     const int next = i + 1 < count ? i + 1 : 0;
@@ -144,7 +139,8 @@ void finish(const Solid& a, const Solid& b, const Relative& pose, const FacePoin
   for (int i = 0; i < points.count; ++i) spots[i] = points.corners[i].spot;
   Choice chosen = choose({spots.data(), static_cast<std::size_t>(points.count)}, limits);
   chosen.sort([&](int i) { return points.corners[i].id; });
-  out.normal = ofA ? Vec3(-frame.sign * pose.R.col(frame.k)) : Vec3(frame.sign * Vec3::Unit(frame.k));
+  out.normal =
+      ofA ? Vec3(-frame.sign * pose.R.col(frame.k)) : Vec3(frame.sign * Vec3::Unit(frame.k));
   out.count = chosen.count;
   for (int k = 0; k < chosen.count; ++k) {
     const Corner& corner = points.corners[chosen.index[k]];

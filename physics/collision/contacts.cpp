@@ -17,22 +17,20 @@ Vec3 tangentTo(const Vec3& n) {
 // The furthest spots along the four diagonals of the plane of touch: the corners of an upright
 // face. They do not depend on the gaps, so that the choice stays while a body settles.
 Choice spread(std::span<const Spot> spots, const Limits& limits) {
-  struct Furthest {
-    double value = -std::numeric_limits<double>::infinity();
-    int index = -1;
-  };
-  std::array<Furthest, 4> furthest;
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  std::array<double, 4> most = {kNone, kNone, kNone, kNone};
+  std::array<int, 4> furthest = {-1, -1, -1, -1};
   for (std::size_t i = 0; i < spots.size(); ++i) {
     const Spot& s = spots[i];
     if (!(s.gap <= limits.keep)) continue;
     const std::array<double, 4> along = {s.u + s.v, s.u - s.v, -s.u - s.v, s.v - s.u};
     for (int k = 0; k < 4; ++k) {
-      if (along[k] > furthest[k].value + limits.tie) furthest[k] = {along[k], static_cast<int>(i)};
+      if (along[k] > most[k] + limits.tie) most[k] = along[k], furthest[k] = static_cast<int>(i);
     }
   }
   Choice chosen;
-  for (const Furthest& f : furthest) {
-    if (f.index >= 0) chosen.take(f.index);
+  for (const int i : furthest) {
+    if (i >= 0) chosen.take(i);
   }
   return chosen;
 }
@@ -57,10 +55,6 @@ void insistOnDeepest(std::span<const Spot> spots, double clearly, Choice& chosen
 }
 
 }  // namespace
-
-bool Choice::has(int i) const {
-  return std::find(index.begin(), index.begin() + count, i) != index.begin() + count;
-}
 
 Choice choose(std::span<const Spot> spots, const Limits& limits) {
   Choice chosen = spread(spots, limits);

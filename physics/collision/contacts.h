@@ -69,7 +69,11 @@ struct Choice {
   std::array<int, Manifold::kMaxPoints> index{};
   int count = 0;
 
-  bool has(int i) const;
+  bool has(int i) const {
+    bool found = false;
+    for (int k = 0; k < count; ++k) found = found || index[k] == i;
+    return found;
+  }
   void take(int i) {
     if (!has(i)) index[count++] = i;
   }

@@ -51,6 +51,12 @@ Relative relativePose(const Pose& a, const Pose& b);
 // The point of the core that lies furthest along d (body frame, any length but zero).
 Vec3 support(const Solid& solid, const Vec3& d);
 
+// Bit k of a box's corner, as in boxHull(), tells its side along axis k.
+inline Vec3 cornerOf(const Solid& box, int corner) {
+  return {corner & 1 ? box.half.x() : -box.half.x(), corner & 2 ? box.half.y() : -box.half.y(),
+          corner & 4 ? box.half.z() : -box.half.z()};
+}
+
 // How far the solid reaches along the unit vector d (body frame); a plane only along its normal.
 inline double reachAlong(const Solid& s, const Vec3& d) {
   if (s.kind <= Kind::capsule || s.kind == Kind::box) return s.half.dot(d.cwiseAbs()) + s.rounding;
