@@ -1,6 +1,9 @@
 // Boxes, and capsules on boxes, against the same solids given as hulls: those take the general way.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "physics/collision/soft_collider.h"
 #include "physics/hull.h"
 #include "tests/physics/collision/scene_of_two.h"
 
@@ -55,6 +58,25 @@ TEST(BoxFace, BearsACapsuleAsTheSameHullDoes) {
     met += static_cast<int>(found.size());
   }
   EXPECT_GT(met, 1000);
+}
+
+// Its ends are two metres apart, the box between them is small.
+TEST(BoxFace, BearsTheMiddleOfALink) {
+  SoftCollider collider;
+  collider.addBody(1, Box{Vec3(0.2, 0.2, 0.2)});
+  SoftElement link;
+  link.from = 2;
+  link.to = 3;
+  link.radius = 0.01;
+  collider.addElement(link);
+  const std::vector<Pose> poses = {
+      {}, {}, {Vec3(-1, 0.12, 0), Quat::Identity()}, {Vec3(1, 0.12, 0), Quat::Identity()}};
+  const auto touches = collider.find(poses, poses, kMargin);
+  ASSERT_EQ(touches.size(), 2u);
+  for (const SoftTouch& touch : touches) {
+    EXPECT_NEAR(touch.gap, 0.01, 1e-12);
+    EXPECT_NEAR(std::abs(touch.along - 0.5), 0.05, 1e-4);  // kSideTolerance of the sizes
+  }
 }
 
 }  // namespace
