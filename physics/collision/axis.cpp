@@ -132,6 +132,11 @@ const Axis& Axes::preferred(double tolerance) const {
 }
 
 Line lineOf(const Solid& s, int index) {
+  if (s.kind == Kind::box) {  // as in boxHull(), out of the cache's way
+    constexpr int kEnds[12][2] = {{0, 1}, {0, 2}, {0, 4}, {1, 3}, {1, 5}, {2, 3},
+                                  {2, 6}, {3, 7}, {4, 5}, {4, 6}, {5, 7}, {6, 7}};
+    return {cornerOf(s, kEnds[index][0]), cornerOf(s, kEnds[index][1])};
+  }
   if (s.isPolyhedron()) {
     const Edge& edge = s.edges[index];
     return {s.hull->vertices[edge.from], s.hull->vertices[edge.to]};

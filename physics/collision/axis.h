@@ -32,6 +32,7 @@ struct Axes {
   const Axis& preferred(double tolerance) const;
 };
 Axes findAxes(const Solid& a, const Solid& b, const Relative& pose, double enough);
+// The same for a box or capsule a and a box b; `lines` only where they are the largest.
 Axes findBoxAxes(const Solid& a, const Solid& b, const Relative& pose, double enough);
 
 // The edge of a polyhedron, or the axis of a capsule or cylinder, in the body frame.

@@ -24,10 +24,15 @@ double smallerSize(const Solid& a, const Solid& b) {
   return std::min(a.size, b.size);
 }
 
-// The most that two items can come closer during the step.
+// The most that two items can come closer during the step along n, from b to a.
+double approach(const Item& a, const Item& b, const Vec3& n) {
+  return std::max(0.0, -n.dot(a.move - b.move)) + a.turn + b.turn;
+}
+
+// The same in any direction; towards a plane there is but one.
 double approach(const Item& a, const Item& b) {
   if (b.solid.kind != Kind::plane) return (a.move - b.move).norm() + a.turn + b.turn;
-  return std::max(0.0, -(b.R * b.solid.normal).dot(a.move - b.move)) + a.turn;
+  return approach(a, b, b.R * b.solid.normal);
 }
 
 }  // namespace
@@ -43,19 +48,24 @@ struct Collider::Impl {
     double margin = 0;
   };
 
+  // Nothing was found, and along the direction that told them apart they do not come near.
+  static bool staysApart(Watch& watch, const Item& a, const Item& b, double near) {
+    const Vec3 n = b.R * watch.n;
+    const double reachA = reachAlong(a.solid, a.R.transpose() * -n);
+    const double apart = n.dot(a.x - b.x) - reachA - reachAlong(b.solid, watch.n);
+    if (apart <= near + approach(a, b, n)) return false;
+    watch.distance = apart;
+    watch.travel = a.travel + b.travel;
+    return true;
+  }
+
   // Whether what was found before still holds for surfaces up to `reach` apart.
   static bool holds(const Watch& watch, const Finding& found, const Item& a, const Item& b,
-                    double reach) {
-    const double travel = a.travel + b.travel - watch.travel;
+                    const Relative& pose, double reach) {
+    if (reach > watch.reach) return false;
     const double still = kStill * smallerSize(a.solid, b.solid);
-    if (watch.count == 0 && watch.distance - travel > reach) return true;
-    if (reach <= watch.reach && travel <= still) return true;
-    const Relative pose = relativePose(a, b);
-    const double shift = (pose.t - found.pose.t).norm();
-    const double turn = (pose.R - found.pose.R).norm() * std::sqrt(0.5);
-    const double nearer = shift + turn * a.solid.coreRadius;
-    if (watch.count == 0 && watch.distance - nearer > reach) return true;
-    return reach <= watch.reach && shift <= still && turn <= kStill;
+    return (pose.t - found.pose.t).squaredNorm() <= still * still &&
+           (pose.R - found.pose.R).squaredNorm() <= 2 * kStill * kStill;
   }
 
   static Relative relativePose(const Item& a, const Item& b) {
@@ -67,16 +77,26 @@ struct Collider::Impl {
   bool look(Watch& watch, Finding& found, const Step& step) {
     const Item &a = pairs.items()[watch.a], &b = pairs.items()[watch.b];
     const double reach = step.margin + approach(a, b);
-    if (watch.known && holds(watch, found, a, b, reach)) return false;
+    if (watch.known) {
+      const double travel = a.travel + b.travel - watch.travel;
+      if (watch.count == 0 && watch.distance - travel > reach) return false;
+      if (watch.count == 0 && staysApart(watch, a, b, step.margin)) return false;
+      const double still = kStill * smallerSize(a.solid, b.solid);
+      if (reach <= watch.reach && travel <= still) return false;
+    }
+    const Relative pose = relativePose(a, b);
+    if (watch.known && holds(watch, found, a, b, pose, reach)) return false;
     const bool plane = b.solid.kind == Kind::plane;
     watch.known = true;
     watch.travel = a.travel + b.travel;
     watch.reach = reach + kSpare * step.margin;
-    found.pose = relativePose(a, b);
+    found.pose = pose;
     const double near = plane ? reach : step.margin;
     watch.distance = touch(a.solid, b.solid, found.pose, near, watch.reach, found.manifold);
+    watch.n = found.manifold.normal;
     ++narrowPhaseCalls;
-    const bool onTheWay = !plane && watch.distance > near && watch.distance <= reach;
+    const bool onTheWay = !plane && watch.distance > near && watch.distance <= reach &&
+                          watch.distance <= near + approach(a, b, b.R * watch.n);
     if (onTheWay) lookAlong(found.manifold, a, b, step);
     watch.count = found.manifold.count;
     watch.known = !onTheWay || watch.count == 0;

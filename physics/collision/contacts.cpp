@@ -8,73 +8,59 @@
 namespace physics::collision {
 namespace {
 
-constexpr double kSideTolerance = 1e-4;  // of the smaller size: aligned edges do not flicker
-
-std::uint32_t facetFeature(Owner owner, int index, std::uint32_t id) {
-  return kFacetTag | (owner == Owner::a ? 1u << 31 : 0u) |
-         (static_cast<std::uint32_t>(index) & 0xfff) << 17 | id;
-}
-
-// Chosen points so far; `take` moves candidate i into the choice.
-struct Choice {
-  std::array<int, Manifold::kMaxPoints> index{};
-  int count = 0;
-  void take(int i) { index[count++] = i; }
-  bool has(int i) const {
-    return std::find(index.begin(), index.begin() + count, i) != index.begin() + count;
-  }
-};
-
 Vec3 tangentTo(const Vec3& n) {
   int smallest = 0;
   n.cwiseAbs().minCoeff(&smallest);
   return n.cross(Vec3::Unit(smallest)).normalized();
 }
 
-// The furthest candidates along the four diagonals of the plane of touch: the corners of an upright
+// The furthest spots along the four diagonals of the plane of touch: the corners of an upright
 // face. They do not depend on the gaps, so that the choice stays while a body settles.
-Choice spread(const Contacts& c, double keep, double tie) {
-  const Vec3 t1 = tangentTo(c.n), t2 = c.n.cross(t1);
-  Choice chosen;
-  for (const Vec3& d : {Vec3(t1 + t2), Vec3(t1 - t2), Vec3(-t1 - t2), Vec3(t2 - t1)}) {
-    int winner = -1;
-    double most = 0;
-    for (int i = 0; i < c.count; ++i) {
-      if (!(c.points[i].gap <= keep)) continue;
-      const double value = c.points[i].onA.dot(d);
-      if (winner < 0 || value > most + tie) winner = i, most = value;
+Choice spread(std::span<const Spot> spots, const Limits& limits) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  std::array<double, 4> most = {kNone, kNone, kNone, kNone};
+  std::array<int, 4> furthest = {-1, -1, -1, -1};
+  for (std::size_t i = 0; i < spots.size(); ++i) {
+    const Spot& s = spots[i];
+    if (!(s.gap <= limits.keep)) continue;
+    const std::array<double, 4> along = {s.u + s.v, s.u - s.v, -s.u - s.v, s.v - s.u};
+    for (int k = 0; k < 4; ++k) {
+      if (along[k] > most[k] + limits.tie) most[k] = along[k], furthest[k] = static_cast<int>(i);
     }
-    if (winner >= 0 && !chosen.has(winner)) chosen.take(winner);
+  }
+  Choice chosen;
+  for (const int i : furthest) {
+    if (i >= 0) chosen.take(i);
   }
   return chosen;
 }
 
-// The deepest candidate takes the place of the chosen point nearest to it, where it is clearly
-// deeper.
-void insistOnDeepest(const Contacts& c, double clearly, Choice& chosen) {
+// The deepest spot takes the place of the chosen one nearest to it, where it is clearly deeper.
+void insistOnDeepest(std::span<const Spot> spots, double clearly, Choice& chosen) {
   int deepest = 0;
-  for (int i = 1; i < c.count; ++i) {
-    if (c.points[i].gap < c.points[deepest].gap) deepest = i;
+  for (int i = 1; i < static_cast<int>(spots.size()); ++i) {
+    if (spots[i].gap < spots[deepest].gap) deepest = i;
   }
   if (chosen.count == 0 || chosen.has(deepest)) return;
+  const Spot& deep = spots[deepest];
   int nearest = 0;
   double best = std::numeric_limits<double>::infinity(), lowest = best;
   for (int k = 0; k < chosen.count; ++k) {
-    const Candidate& point = c.points[chosen.index[k]];
-    const double distance = (point.onA - c.points[deepest].onA).squaredNorm();
-    if (distance < best) best = distance, nearest = k;
-    lowest = std::min(lowest, point.gap);
+    const Spot& spot = spots[chosen.index[k]];
+    const double du = spot.u - deep.u, dv = spot.v - deep.v;
+    if (du * du + dv * dv < best) best = du * du + dv * dv, nearest = k;
+    lowest = std::min(lowest, spot.gap);
   }
-  if (c.points[deepest].gap < lowest - clearly) chosen.index[nearest] = deepest;
-}
-
-Choice choose(const Contacts& c, double keep, double tie, double clearly) {
-  Choice chosen = spread(c, keep, tie);
-  insistOnDeepest(c, clearly, chosen);
-  return chosen;
+  if (deep.gap < lowest - clearly) chosen.index[nearest] = deepest;
 }
 
 }  // namespace
+
+Choice choose(std::span<const Spot> spots, const Limits& limits) {
+  Choice chosen = spread(spots, limits);
+  insistOnDeepest(spots, limits.clearly, chosen);
+  return chosen;
+}
 
 double offset(const Vec3& n, const Vec3& apart) { return (apart - n.dot(apart) * n).norm(); }
 
@@ -157,15 +143,15 @@ void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flat
   contacts.add(closest.onA, closest.onB, feature);
 }
 
-void finish(const Contacts& contacts, const Relative& pose, double keep, double tie, double clearly,
-            Manifold& out) {
-  Choice chosen = choose(contacts, keep, tie, clearly);
-  for (int k = 1; k < chosen.count; ++k) {  // by feature
-    for (int l = k; l > 0; --l) {
-      int &p = chosen.index[l - 1], &q = chosen.index[l];
-      if (contacts.points[q].feature < contacts.points[p].feature) std::swap(p, q);
-    }
+void finish(const Contacts& contacts, const Relative& pose, const Limits& limits, Manifold& out) {
+  const Vec3 t1 = tangentTo(contacts.n), t2 = contacts.n.cross(t1);
+  std::array<Spot, Patch::kRoom> spots;
+  for (int i = 0; i < contacts.count; ++i) {
+    const Candidate& point = contacts.points[i];
+    spots[i] = {point.onA.dot(t1), point.onA.dot(t2), point.gap};
   }
+  Choice chosen = choose({spots.data(), static_cast<std::size_t>(contacts.count)}, limits);
+  chosen.sort([&](int i) { return contacts.points[i].feature; });
   out.normal = contacts.n;
   out.count = chosen.count;
   for (int k = 0; k < chosen.count; ++k) {

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <utility>
 
 #include "physics/collision/collider.h"
 #include "physics/collision/patch.h"
@@ -52,13 +54,54 @@ void touchFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owne
 void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flatness,
                 Contacts& contacts);
 
-// Keeps the points with gap <= keep, at most four of them: the furthest along the diagonals of the
-// plane of touch, and the deepest where it is deeper than those by more than `clearly` [m]. Ties
-// within `tie` metres go to the earlier point.
-void finish(const Contacts& contacts, const Relative& pose, double keep, double tie, double clearly,
-            Manifold& out);
+// Which of the points found are kept.
+struct Limits {
+  double keep = 0;     // m: gaps up to this
+  double tie = 0;      // m: points this close in rank are one, the earlier
+  double clearly = 0;  // m: a point this much deeper than those chosen is chosen
+};
+
+// A point in the plane of touch; u and v along two axes of the plane.
+struct Spot {  // left uninitialised on purpose
+  double u, v, gap;
+};
+struct Choice {
+  std::array<int, Manifold::kMaxPoints> index{};
+  int count = 0;
+
+  bool has(int i) const {
+    bool found = false;
+    for (int k = 0; k < count; ++k) found = found || index[k] == i;
+    return found;
+  }
+  void take(int i) {
+    if (!has(i)) index[count++] = i;
+  }
+  template <class F>
+  void sort(const F& feature) {
+    for (int k = 1; k < count; ++k) {
+      for (int l = k; l > 0 && feature(index[l]) < feature(index[l - 1]); --l) {
+        std::swap(index[l - 1], index[l]);
+      }
+    }
+  }
+};
+// At most four of the spots: the furthest along the diagonals of the plane, and the deepest where
+// it is clearly deeper than those.
+Choice choose(std::span<const Spot> spots, const Limits& limits);
+
+// Fills the manifold with the points chosen, by feature.
+void finish(const Contacts& contacts, const Relative& pose, const Limits& limits, Manifold& out);
+
+constexpr double kSideTolerance = 1e-4;  // of the smaller size: aligned edges do not flicker
 
 // Feature tags in the two top bits but one; the top bit tells the owner of a facet.
 constexpr std::uint32_t kFacetTag = 0u << 29, kLinesTag = 1u << 29, kPointTag = 2u << 29;
+
+// `id`: of a corner of the patch.
+inline std::uint32_t facetFeature(Owner owner, int index, std::uint32_t id) {
+  return kFacetTag | (owner == Owner::a ? 1u << 31 : 0u) |
+         (static_cast<std::uint32_t>(index) & 0xfff) << 17 | id;
+}
 
 }  // namespace physics::collision

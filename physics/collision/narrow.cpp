@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "physics/collision/axis.h"
+#include "physics/collision/box_face.h"
 #include "physics/collision/contacts.h"
 #include "physics/collision/gjk.h"
 #include "physics/collision/round.h"
@@ -135,15 +136,11 @@ double touchOverlapping(const Solid& a, const Solid& b, const Relative& pose, Ax
 // Two cores with facets and edges. A facet or line is taken when one of its points is at the
 // distance that the directions promise; then no other can be nearer. Otherwise the nearest points
 // decide.
-double touchCores(const Solid& a, const Solid& b, const Relative& pose, double reach,
+double touchCores(const Solid& a, const Solid& b, const Relative& pose, const Axes& axes,
                   Contacts& contacts) {
-  const double radii = a.rounding + b.rounding, enough = reach + radii;
-  const bool boxes = a.kind == Kind::box && b.kind == Kind::box;
-  const Axes axes = boxes ? findBoxAxes(a, b, pose, enough) : findAxes(a, b, pose, enough);
+  const double radii = a.rounding + b.rounding;
   const Axis& largest = axes.largest();
-  contacts.count = 0;
   const double separation = largest.separation - radii;
-  if (separation > reach) return separation;
   const double tolerance = kFlat * smallerSize(a, b);
   const Axis& preferred = axes.preferred(tolerance);
   const bool exact = isExact(a, b);
@@ -160,6 +157,21 @@ double touchCores(const Solid& a, const Solid& b, const Relative& pose, double r
   return nearest.distance - radii;
 }
 
+// The most frequent case of touchCores(), by the same rules, in the frame of the face.
+bool touchBoxFace(const Solid& a, const Solid& b, const Relative& pose, const Axes& axes,
+                  const Limits& limits, Manifold& out) {
+  const double tolerance = kFlat * smallerSize(a, b), separation = axes.largest().separation;
+  const Axis& axis = axes.preferred(tolerance);
+  if (axis.from == Axis::From::lines) return false;
+  const bool ofA = axis.from == Axis::From::facetA;
+  FacePoints points;
+  layOnFace(a, b, pose, ofA ? Owner::a : Owner::b, ofA ? axis.indexA : axis.indexB, points);
+  const double gap = separation - a.rounding - b.rounding;
+  if (points.count == 0 || (separation > 0 && points.smallestGap() > gap + tolerance)) return false;
+  finish(a, b, pose, points, limits, out);
+  return true;
+}
+
 // Over a plane, of the lowest point: the manifold has it to within its tolerance only.
 double heightOver(const Solid& a, const Solid& plane, const Relative& pose) {
   const Vec3 low = support(a, -(pose.R.transpose() * plane.normal));
@@ -167,36 +179,56 @@ double heightOver(const Solid& a, const Solid& plane, const Relative& pose) {
 }
 
 bool isRound(const Solid& s) { return s.kind <= Kind::capsule; }
+bool isBoxy(const Solid& a, const Solid& b) {
+  return b.kind == Kind::box && (a.kind == Kind::box || a.kind == Kind::capsule);
+}
 
 }  // namespace
 
 double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
              Manifold& out) {
+  const double size = smallerSize(a, b);
+  const bool rim = a.kind == Kind::cylinder || b.kind == Kind::cylinder;
+  const Limits limits{keep, kTie * size, (rim ? kRimDeeper : kDeeper) * size};
+  out.count = 0;
   Contacts contacts;
   double distance = 0;
   if (b.kind == Kind::plane) {
     distance = touchPlane(a, b, pose, contacts);
   } else if (isRound(b)) {
-    distance = touchRound(a, b, pose, contacts);
+    distance = touchRound(a, b, pose, reach, contacts);
   } else if (a.kind <= Kind::sphere) {
     distance = touchPoint(a, b, pose, contacts);
   } else {
-    distance = touchCores(a, b, pose, reach, contacts);
+    const double radii = a.rounding + b.rounding;
+    const bool boxy = isBoxy(a, b);
+    const Axes axes = (boxy ? findBoxAxes : findAxes)(a, b, pose, keep + radii);
+    const double separation = axes.largest().separation - radii;
+    out.normal = axes.largest().n;
+    if (separation > reach) return separation;
+    if (boxy && touchBoxFace(a, b, pose, axes, limits, out)) return separation;
+    distance = touchCores(a, b, pose, axes, contacts);
   }
-  out.count = 0;
-  if (distance <= reach) {
-    const double size = smallerSize(a, b);
-    const bool rim = a.kind == Kind::cylinder || b.kind == Kind::cylinder;
-    finish(contacts, pose, keep, kTie * size, (rim ? kRimDeeper : kDeeper) * size, out);
-  }
+  out.normal = contacts.n;
+  if (distance <= reach) finish(contacts, pose, limits, out);
   return distance;
+}
+
+Apart apart(const Solid& a, const Solid& b, const Relative& pose) {
+  if (isBoxy(a, b)) {
+    const Axes axes = findBoxAxes(a, b, pose, kInfinite);
+    return {axes.largest().separation - a.rounding, axes.largest().n};
+  }
+  Manifold manifold;
+  const double distance = touch(a, b, pose, kInfinite, kInfinite, manifold);
+  return {distance, manifold.normal};
 }
 
 double signedDistance(const Solid& a, const Solid& b, const Relative& pose) {
   if (a.kind > b.kind) return signedDistance(b, a, inverse(pose));
   Contacts contacts;
   if (b.kind == Kind::plane) return a.kind == b.kind ? kInfinite : heightOver(a, b, pose);
-  if (isRound(b)) return touchRound(a, b, pose, contacts);
+  if (isRound(b)) return touchRound(a, b, pose, -kInfinite, contacts);
   if (a.kind <= Kind::sphere) return touchPoint(a, b, pose, contacts);
   const double radii = a.rounding + b.rounding;
   const Distance nearest = coreDistance(a, b, pose);

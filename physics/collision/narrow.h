@@ -8,9 +8,19 @@ namespace physics::collision {
 
 // a.kind must not be later than b.kind. When the solids are within `reach`, fills `out` with the
 // points whose gap is at most `keep` and returns the distance (negative: depth along the normal);
-// otherwise out.count is 0 and the answer is a lower bound of the distance, above `reach`.
+// otherwise out.count is 0 and the answer is a lower bound of the distance, above `reach`: they are
+// that far apart along out.normal. It is the best bound of the directions tried unless above
+// `keep`.
 double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
              Manifold& out);
+
+// A lower bound of the distance, along n (from b to a, b's frame), quickly: not less than a third
+// of it, and below zero only when they overlap.
+struct Apart {
+  double distance = 0;
+  Vec3 n = Vec3::UnitY();
+};
+Apart apart(const Solid& a, const Solid& b, const Relative& pose);
 
 // Signed distance. Exact for separated solids, and for overlapping ones but for cylinders, where it
 // is the depth along the best direction found. b may be of an earlier kind than a.

@@ -9,7 +9,7 @@ namespace physics::collision {
 namespace {
 
 constexpr double kSlack = 0.04;      // of the size: how much bounds are fatter than they must be
-constexpr double kAhead = 1;         // steps of the present motion that the bounds hold
+constexpr double kAhead = 4;         // steps of the present motion that the bounds hold
 constexpr double kPlaneReach = 1e4;  // m: where bodies lie on a plane that turns
 
 Bounds grown(const Bounds& bounds, double by) {
@@ -31,7 +31,16 @@ Bounds swept(const Solid& solid, const Pose& start, const Pose& end) {
                 boundsAt(solid, end.x, end.q.toRotationMatrix()));
 }
 
-// Room for one more step like this one, and for a little more in all directions.
+// Not less than swept(), without the rotation at the end.
+Bounds path(const Item& item) {
+  const Bounds start = boundsAt(item.solid, item.x, item.R);
+  const Vec3 size = Vec3::Constant(item.solid.size), turn = Vec3::Constant(item.turn);
+  const Bounds turned{(start.low - turn).cwiseMax(item.x - size),
+                      (start.high + turn).cwiseMin(item.x + size)};
+  return joined(joined(start, turned), {turned.low + item.move, turned.high + item.move});
+}
+
+// Room for more steps like this one, and for a little more in all directions.
 Bounds fattened(const Solid& solid, const Bounds& swept, const Vec3& move, double margin) {
   const Bounds ahead{swept.low + kAhead * move, swept.high + kAhead * move};
   return grown(joined(swept, ahead), margin + kSlack * solid.size);
@@ -124,7 +133,7 @@ void Pairs::dropParted() {
   for (const Key& key : keys_) {
     const int p = indexOf_[key.a], q = indexOf_[key.b];
     const bool asBefore = !moved_[p] && !moved_[q] && !ignoredMore_;
-    if (asBefore || (touches(p, q) && wanted(items_[p], items_[q]))) {
+    if (asBefore || (touches(p, q) && (!ignoredMore_ || wanted(items_[p], items_[q])))) {
       keys_[kept++] = key;
     } else {
       free_.push_back(key.watch);
@@ -137,9 +146,13 @@ void Pairs::findNew() {
   fresh_.clear();
   const auto offer = [&](int p, int q) {
     if (items_[p].rests && items_[q].rests) return;
-    if (wanted(items_[p], items_[q]) && touches(p, q)) fresh_.push_back(keyOf(p, q));
+    if (touches(p, q) && wanted(items_[p], items_[q])) fresh_.push_back(keyOf(p, q));
   };
-  for (const auto& [p, q] : found_) offer(itemOfTree_[p], itemOfTree_[q]);
+  for (const auto& [s, t] : found_) {
+    const int p = itemOfTree_[s], q = itemOfTree_[t];
+    const bool twice = moved_[p] && moved_[q];  // found from both
+    if (!twice || p < q) offer(p, q);
+  }
   for (const int plane : planes_) {
     for (const int t : movedTree_) offer(itemOfTree_[t], plane);
   }
@@ -173,9 +186,9 @@ bool Pairs::takeMotion(Item& item, const Pose& from, const Pose& to) {
   return planeMoved;
 }
 
-void Pairs::fatten(int i, const Bounds& path, double margin) {
+void Pairs::fatten(int i, const Bounds& bounds, double margin) {
   const Item& item = items_[i];
-  fat_[i] = fattened(item.solid, path, item.move, margin);
+  fat_[i] = fattened(item.solid, bounds, item.move, margin);
   if (treeIndex_[i] < 0) {
     treeIndex_[i] = static_cast<int>(itemOfTree_.size());
     itemOfTree_.push_back(i);
@@ -197,13 +210,12 @@ bool Pairs::takeMotions(std::span<const Pose> start, std::span<const Pose> end, 
   return all;
 }
 
-void Pairs::takeBounds(int i, std::span<const Pose> start, std::span<const Pose> end, double margin,
-                       bool all) {
+void Pairs::takeBounds(int i, double margin, bool all) {
   const Item& item = items_[i];
   if (item.solid.kind == Kind::plane) return;
-  const Bounds path = swept(item.solid, start[item.body], end[item.body]);
-  moved_[i] = all || !within(grown(path, margin), fat_[i]);
-  if (moved_[i]) fatten(i, path, margin);
+  const Bounds bounds = path(item);
+  moved_[i] = all || !within(grown(bounds, margin), fat_[i]);
+  if (moved_[i]) fatten(i, bounds, margin);
 }
 
 void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin) {
@@ -211,12 +223,10 @@ void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, doubl
           "collider: start and end must hold a pose for each body");
   movedTree_.clear();
   if (takeMotions(start, end, margin > margin_)) {
-    for (int i = 0; i < static_cast<int>(items_.size()); ++i) {
-      takeBounds(i, start, end, margin, true);
-    }
+    for (int i = 0; i < static_cast<int>(items_.size()); ++i) takeBounds(i, margin, true);
   } else {
-    for (const int i : moving_) takeBounds(i, start, end, margin, false);
-    for (const int i : late_) takeBounds(i, start, end, margin, false);
+    for (const int i : moving_) takeBounds(i, margin, false);
+    for (const int i : late_) takeBounds(i, margin, false);
   }
   late_.clear();
   margin_ = std::max(margin, margin_);

@@ -28,10 +28,11 @@ struct Item {
 struct Watch {
   int a = 0, b = 0;
   bool known = false;
-  int count = 0;        // of the points found then
-  double travel = 0;    // of both items together, then
-  double distance = 0;  // then, or a lower bound
-  double reach = 0;     // how far was looked
+  int count = 0;           // of the points found then
+  double travel = 0;       // of both items together, then
+  double distance = 0;     // then, or a lower bound
+  double reach = 0;        // how far was looked
+  Vec3 n = Vec3::UnitY();  // b's frame: without points, they are `distance` apart along it
 };
 struct Finding {
   Relative pose;
@@ -72,10 +73,9 @@ class Pairs {
 
  private:
   static bool takeMotion(Item& item, const Pose& from, const Pose& to);  // true: a plane moved
-  void fatten(int item, const Bounds& path, double margin);
+  void fatten(int item, const Bounds& bounds, double margin);
   bool takeMotions(std::span<const Pose> start, std::span<const Pose> end, bool all);
-  void takeBounds(int item, std::span<const Pose> start, std::span<const Pose> end, double margin,
-                  bool all);
+  void takeBounds(int item, double margin, bool all);
   bool bothRest(const Key& key) const;
   bool wanted(const Item& p, const Item& q) const;
   Key keyOf(int p, int q) const;

@@ -9,8 +9,6 @@ namespace {
 
 constexpr int kRim = 16;
 constexpr double kCos[5] = {1, 0.92387953251128674, 0.70710678118654752, 0.38268343236508977, 0};
-constexpr std::uint32_t kCrossing = 1u << 16;  // the corner was cut: bits 8-15 edge, 0-7 side
-constexpr std::uint32_t kAlongSide = 0x80;     // the edge was made by a cut
 
 // cos(2 pi k / kRim), the same bits everywhere.
 double rimCosine(int k) {
@@ -60,8 +58,7 @@ bool facesWithCap(const Vec3& d) { return std::abs(d.y()) > 0.5; }
 Patch::Corner cut(const Patch::Corner& from, const Patch::Corner& to, double fromOut, double toOut,
                   std::uint32_t side) {
   const double part = fromOut / (fromOut - toOut);
-  const std::uint32_t edge = from.edge & 0xff;
-  return {from.p + part * (to.p - from.p), kCrossing | edge << 8 | (side & 0xff), from.edge};
+  return {from.p + part * (to.p - from.p), cutId(from.edge, side), from.edge};
 }
 
 // Keeps what is inside of one plane: Sutherland and Hodgman. `out` is the distance outside.
@@ -77,7 +74,7 @@ void cutPolygon(Patch& patch, const Out& out, std::uint32_t side) {
     if (here <= 0) kept[count++] = corner;
     if ((here <= 0) != (there <= 0)) {
       kept[count] = cut(corner, next, here, there, side);
-      if (here <= 0) kept[count].edge = kAlongSide | (side & 0x7f);
+      if (here <= 0) kept[count].edge = sideId(side);
       ++count;
     }
     here = there;
@@ -95,7 +92,7 @@ void cutSegment(Patch& patch, const Out& out, std::uint32_t side) {
     patch.corners[0] = cut(patch.corners[0], patch.corners[1], first, last, side);
   } else if (last > 0) {
     patch.corners[1] = cut(patch.corners[0], patch.corners[1], first, last, side);
-    patch.corners[1].id ^= 0x80;  // the two cuts of one edge by one side differ
+    patch.corners[1].id = otherCut(patch.corners[1].id);
   }
 }
 

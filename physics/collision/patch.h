@@ -25,6 +25,13 @@ struct Patch {
   void add(const Vec3& p, std::uint32_t id) { corners[count++] = {p, id, id}; }
 };
 
+// Ids of what a cut by a side of a polygon makes: a corner, and the edge along that side.
+inline std::uint32_t cutId(std::uint32_t edge, std::uint32_t side) {
+  return 1u << 16 | (edge & 0xff) << 8 | (side & 0xff);
+}
+inline std::uint32_t otherCut(std::uint32_t id) { return id ^ 0x80; }  // of one edge by one side
+inline std::uint32_t sideId(std::uint32_t side) { return 0x80 | (side & 0x7f); }
+
 // The patch of `solid` that faces the unit vector d, both in the body frame: a polyhedron's face
 // nearest to d, a cylinder's cap (polygon of kRim corners, one of them the furthest along d) or
 // side line.

@@ -119,19 +119,21 @@ double flatness(const Solid& a, const Solid& b) {
   return 0.02 * round + 1e-3 * std::min(a.size, b.size);
 }
 
-double touchRound(const Solid& a, const Solid& b, const Relative& pose, Contacts& contacts) {
+double touchRound(const Solid& a, const Solid& b, const Relative& pose, double reach,
+                  Contacts& contacts) {
   const Vec3 u = pose.R.col(1);
   const Line lineA{pose.t - a.halfLength * u, pose.t + a.halfLength * u};
   const Line lineB = lineOf(b, 0);
   const LinePoints closest = closestPoints(lineA, lineB);
   const Vec3 d = closest.onA - closest.onB;
-  const double distance = d.norm();
+  const double distance = d.norm(), gap = distance - a.rounding - b.rounding;
   const bool clear = distance > kCoincident * (a.size + b.size);
   contacts.n = clear ? Vec3(d / distance) : anyDirection(lineA, lineB, pose.t);
+  if (gap > reach) return gap;
   contacts.radiusA = a.rounding;
   contacts.radiusB = b.rounding;
   touchLines(lineA, lineB, kLinesTag, flatness(a, b), contacts);
-  return distance - a.rounding - b.rounding;
+  return gap;
 }
 
 double touchPoint(const Solid& a, const Solid& b, const Relative& pose, Contacts& contacts) {

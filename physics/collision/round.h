@@ -5,8 +5,10 @@
 
 namespace physics::collision {
 
-// All fill `contacts` and return the signed distance of the surfaces [m].
-double touchRound(const Solid& a, const Solid& b, const Relative& pose, Contacts& contacts);
+// All fill `contacts` and return the signed distance of the surfaces [m]. touchRound() does not
+// fill them where it is above `reach`.
+double touchRound(const Solid& a, const Solid& b, const Relative& pose, double reach,
+                  Contacts& contacts);
 double touchPoint(const Solid& a, const Solid& b, const Relative& pose, Contacts& contacts);
 double touchPlane(const Solid& a, const Solid& plane, const Relative& pose, Contacts& contacts);
 

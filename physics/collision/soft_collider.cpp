@@ -33,7 +33,7 @@ Placed place(const SoftElement& element, std::span<const Pose> start) {
   const bool line = length > 1e-12;
   placed.solid.kind = line ? Kind::capsule : Kind::sphere;
   placed.solid.halfLength = 0.5 * length;
-  placed.solid.coreRadius = 0.5 * length;
+  placed.solid.coreRadius = placed.solid.half.y() = 0.5 * length;
   placed.solid.size = placed.solid.coreRadius + element.radius;
   placed.solid.thickness = 2 * element.radius;
   if (line) placed.pose.q = turnBetween(Vec3::UnitY(), along);

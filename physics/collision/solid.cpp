@@ -21,7 +21,7 @@ void fill(Solid& s, const Sphere& sphere) {
 void fill(Solid& s, const Capsule& capsule) {
   s.kind = Kind::capsule;
   s.rounding = s.radius = capsule.radius;
-  s.halfLength = s.coreRadius = 0.5 * capsule.length;
+  s.halfLength = s.coreRadius = s.half.y() = 0.5 * capsule.length;
   s.high = Vec3(s.radius, s.radius + s.halfLength, s.radius);
   s.thickness = 2 * capsule.radius;
 }

@@ -26,7 +26,7 @@ struct Solid {
   double thickness = 0;               // smallest full extent; 0 for point and plane
   double rounding = 0;                // radius around the core: sphere, capsule
   double radius = 0, halfLength = 0;  // of a cylinder or capsule, along y
-  Vec3 half = Vec3::Zero();           // of a box
+  Vec3 half = Vec3::Zero();           // of the core of a box or capsule
   std::shared_ptr<const Hull> hull;   // of a box or convex
   std::vector<Edge> edges;            // of a box or convex
   Vec3 normal = Vec3::UnitY();        // of a plane: normal . p <= offset is solid
@@ -50,6 +50,18 @@ Relative relativePose(const Pose& a, const Pose& b);
 
 // The point of the core that lies furthest along d (body frame, any length but zero).
 Vec3 support(const Solid& solid, const Vec3& d);
+
+// Bit k of a box's corner, as in boxHull(), tells its side along axis k.
+inline Vec3 cornerOf(const Solid& box, int corner) {
+  return {corner & 1 ? box.half.x() : -box.half.x(), corner & 2 ? box.half.y() : -box.half.y(),
+          corner & 4 ? box.half.z() : -box.half.z()};
+}
+
+// How far the solid reaches along the unit vector d (body frame); a plane only along its normal.
+inline double reachAlong(const Solid& s, const Vec3& d) {
+  if (s.kind <= Kind::capsule || s.kind == Kind::box) return s.half.dot(d.cwiseAbs()) + s.rounding;
+  return s.kind == Kind::plane ? s.offset : support(s, d).dot(d);
+}
 
 // Bounds of the solid at a pose, world frame.
 struct Bounds {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "physics/collision/narrow.h"
 
@@ -32,19 +31,17 @@ Pose along(const Way& way, double part) {
 
 std::optional<double> firstTouch(const Solid& a, const Way& wayA, const Solid& b, const Way& wayB,
                                  double near, std::int64_t& calls) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const Vec3 move = (wayA.end.x - wayA.start.x) - (wayB.end.x - wayB.start.x);
   const double turning = turningRate(wayA) * a.coreRadius + turningRate(wayB) * b.coreRadius;
   double part = 0;
-  Manifold manifold;
   for (int i = 0; i < kMaxAdvances; ++i) {
     const Pose poseA = along(wayA, part), poseB = along(wayB, part);
-    const double distance = touch(a, b, relativePose(poseA, poseB), kInfinite, kInfinite, manifold);
+    const Apart now = apart(a, b, relativePose(poseA, poseB));
     ++calls;
-    if (distance <= near) return part;
-    const double closing = turning - move.dot(poseB.q * manifold.normal);
+    if (now.distance <= near) return part;
+    const double closing = turning - move.dot(poseB.q * now.n);
     if (part >= 1 || closing <= 0) return std::nullopt;
-    part = std::min(1.0, part + (distance - 0.5 * near) / closing);
+    part = std::min(1.0, part + (now.distance - 0.5 * near) / closing);
   }
   return part;  // still closing in: as good as a touch
 }
