@@ -11,7 +11,9 @@ namespace physics {
 namespace {
 
 // Keeps the factor regular where rows repeat each other (loops): relative to the row's own A.
-constexpr double kRedundancy = 1e-10;
+constexpr double kRedundancy = 1e-5;
+
+constexpr int kMostRounds = 6;  // of finding which rows are at a bound
 
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
@@ -399,17 +401,22 @@ void Articulation::apply(std::span<Displacement> moved) {
   }
 }
 
-// What ran past a bound is held there from now on.
-void Articulation::clampAll(std::span<Displacement> moved) {
-  for (JointRow& row : rows_) {
-    if (!row.free || !isBounded(row)) continue;
-    const Vec3 inside = clamped(row, row.lambda);
-    if (inside == row.lambda) continue;
-    give(row, inside - row.lambda, moved);
+// Rows that the solution would take past a bound are held there, and the others are to be solved
+// for again: what one row gives up, the rows around it have not counted on.
+bool Articulation::holdAtBounds(std::span<Displacement> moved) {
+  bool any = false;
+  for (const int i : now_->rows) {
+    JointRow& row = rows_[i];
+    if (!isBounded(row)) continue;
+    const Vec3 wanted = row.lambda + right_[i], inside = clamped(row, wanted);
+    if (inside == wanted) continue;
+    if (inside != row.lambda) give(row, inside - row.lambda, moved);
     row.lambda = inside;
     row.free = false;
-    stale_ = true;
+    any = true;
   }
+  stale_ = stale_ || any;
+  return any;
 }
 
 // What of the errors at X^t a substep leaves to later ones, where they are taken back no faster than
@@ -457,13 +464,18 @@ void Articulation::solvePositions(Kinds& kinds, const Configuration& at, bool fi
   if (first) begin(masses, moved);
   if (first) chooseFree();
   if (stale_) factorize(positions_, masses);
-  for (const int i : now_->rows) {
-    const JointRow& row = rows_[i];
-    right_[i] = -(row.c - row.left + row.alpha * row.lambda + row.yields * row.lambda);
+  for (JointRow& row : rows_) row.evaluatedAt = along(row, moved);
+  for (int round = 1;; ++round) {
+    for (const int i : now_->rows) {
+      const JointRow& row = rows_[i];
+      const Vec3 since = along(row, moved) - row.evaluatedAt;
+      right_[i] = -(row.c - row.left + since + row.alpha * row.lambda + row.yields * row.lambda);
+    }
+    substitute();
+    if (round == kMostRounds || !holdAtBounds(moved)) break;
+    factorize(positions_, masses);
   }
-  substitute();
   apply(moved);
-  clampAll(moved);
 }
 
 void Articulation::prepareVelocities(Kinds& kinds, const Configuration& at,
@@ -477,11 +489,13 @@ void Articulation::prepareVelocities(Kinds& kinds, const Configuration& at,
 
 void Articulation::solveVelocities(std::span<const JointMass> masses,
                                    std::span<Displacement> moved) {
-  if (stale_) factorize(velocities_, masses);
-  for (const int i : now_->rows) right_[i] = -along(rows_[i], moved);
-  substitute();
+  for (int round = 1;; ++round) {
+    if (stale_) factorize(velocities_, masses);
+    for (const int i : now_->rows) right_[i] = -along(rows_[i], moved);
+    substitute();
+    if (round == kMostRounds || !holdAtBounds(moved)) break;
+  }
   apply(moved);
-  clampAll(moved);
 }
 
 void Articulation::finish(Kinds& kinds, double dt) const {

@@ -40,6 +40,7 @@ struct JointRow {
   double regularisation = 0, yields = 0;  // epsilon, and alpha = epsilon A of it (54)
   double low = 0, high = 0, longest = 0;  // bounds of the total
   Vec3 c = Vec3::Zero(), lambda = Vec3::Zero(), left = Vec3::Zero();
+  Vec3 evaluatedAt = Vec3::Zero();  // J u there
   Mat3 alpha = Mat3::Zero();
   // J, and M^-1 J^T. Most linear parts are plus or minus one, or nothing, and are not multiplied by.
   enum class Part : char { kNone, kPlus, kMinus, kFull };
@@ -106,7 +107,7 @@ class Articulation {
   Vec3 along(const JointRow& row, std::span<const Displacement> moved) const;
   void give(const JointRow& row, const Vec3& change, std::span<Displacement> moved) const;
   void apply(std::span<Displacement> moved);
-  void clampAll(std::span<Displacement> moved);
+  bool holdAtBounds(std::span<Displacement> moved);
   void evaluate(Kinds& kinds, const Configuration& at, bool all);
 
   std::vector<JointRow> rows_;  // in the order of elimination
