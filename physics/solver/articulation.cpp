@@ -274,10 +274,15 @@ void Articulation::respond(JointRow& row, std::span<const JointMass> masses) {
 
 void Articulation::lay(Pattern& pattern) const {
   const std::size_t n = rows_.size();
-  pattern = {};
   pattern.free.resize(n);
   for (std::size_t i = 0; i < n; ++i) pattern.free[i] = rows_[i].free;
-  std::vector<char> used(blocks_.size(), 0);
+  pattern.rows.clear();
+  pattern.start.clear();
+  pattern.below.clear();
+  pattern.updateStart.clear();
+  pattern.update.clear();
+  pattern.couplings.clear();
+  pattern.blocks.clear();
   for (std::size_t i = 0; i < n; ++i) {
     if (!rows_[i].free) continue;
     const Column& column = columns_[i];
@@ -287,7 +292,7 @@ void Articulation::lay(Pattern& pattern) const {
     for (std::size_t k = 0; k < column.to.size(); ++k) {
       if (!rows_[column.to[k]].free) continue;
       pattern.below.push_back({column.to[k], column.block[k]});
-      used[column.block[k]] = 1;
+      pattern.blocks.push_back(column.block[k]);
     }
     for (const auto& [q, p, target] : column.update) {
       if (!rows_[column.to[q]].free || !rows_[column.to[p]].free) continue;
@@ -300,17 +305,24 @@ void Articulation::lay(Pattern& pattern) const {
   for (const Coupling& c : couplings_) {
     if (rows_[c.later].free && rows_[c.earlier].free) pattern.couplings.push_back(c);
   }
-  for (std::size_t k = 0; k < used.size(); ++k) {
-    if (used[k]) pattern.blocks.push_back(static_cast<int>(k));
-  }
 }
 
-void Articulation::factorize(Pattern& pattern, std::span<const JointMass> masses) {
+const Articulation::Pattern& Articulation::pattern() {
+  for (const Pattern& known : patterns_) {
+    bool same = known.free.size() == rows_.size();
+    for (std::size_t i = 0; same && i < rows_.size(); ++i) same = known.free[i] == rows_[i].free;
+    if (same) return known;
+  }
+  Pattern& oldest = patterns_[nextPattern_];
+  nextPattern_ = (nextPattern_ + 1) % static_cast<int>(patterns_.size());
+  lay(oldest);
+  return oldest;
+}
+
+void Articulation::factorize(std::span<const JointMass> masses) {
   stale_ = false;
+  const Pattern& pattern = this->pattern();
   now_ = &pattern;
-  bool same = pattern.free.size() == rows_.size();
-  for (std::size_t i = 0; same && i < rows_.size(); ++i) same = pattern.free[i] == rows_[i].free;
-  if (!same) lay(pattern);
   for (const int block : pattern.blocks) blocks_[block].setZero();
   for (const int i : pattern.rows) {
     JointRow& row = rows_[i];
@@ -463,7 +475,7 @@ void Articulation::solvePositions(Kinds& kinds, const Configuration& at, bool fi
   evaluate(kinds, at, first);
   if (first) begin(masses, moved);
   if (first) chooseFree();
-  if (stale_) factorize(positions_, masses);
+  if (stale_) factorize(masses);
   for (JointRow& row : rows_) row.evaluatedAt = along(row, moved);
   for (int round = 1;; ++round) {
     for (const int i : now_->rows) {
@@ -473,7 +485,7 @@ void Articulation::solvePositions(Kinds& kinds, const Configuration& at, bool fi
     }
     substitute();
     if (round == kMostRounds || !holdAtBounds(moved)) break;
-    factorize(positions_, masses);
+    factorize(masses);
   }
   apply(moved);
 }
@@ -484,13 +496,13 @@ void Articulation::prepareVelocities(Kinds& kinds, const Configuration& at,
     row.free = row.active && !givesWay(row) && (!isBounded(row) || !row.lambda.isZero(0));
   }
   evaluate(kinds, at, false);
-  factorize(velocities_, masses);
+  factorize(masses);
 }
 
 void Articulation::solveVelocities(std::span<const JointMass> masses,
                                    std::span<Displacement> moved) {
   for (int round = 1;; ++round) {
-    if (stale_) factorize(velocities_, masses);
+    if (stale_) factorize(masses);
     for (const int i : now_->rows) right_[i] = -along(rows_[i], moved);
     substitute();
     if (round == kMostRounds || !holdAtBounds(moved)) break;

@@ -100,7 +100,8 @@ class Articulation {
     std::vector<int> blocks;                   // used
   };
   void lay(Pattern& pattern) const;
-  void factorize(Pattern& pattern, std::span<const JointMass> masses);
+  const Pattern& pattern();  // of the rows that are free now
+  void factorize(std::span<const JointMass> masses);
   void substitute();
   void begin(std::span<const JointMass> masses, std::span<Displacement> moved);
   void chooseFree();
@@ -112,8 +113,9 @@ class Articulation {
 
   std::vector<JointRow> rows_;  // in the order of elimination
   std::vector<BodyId> bodies_;  // those that move, sorted
-  Pattern positions_, velocities_;
-  Pattern* now_ = nullptr;  // the one that the factor is of
+  std::array<Pattern, 6> patterns_;  // those of late
+  int nextPattern_ = 0;
+  const Pattern* now_ = nullptr;  // the one that the factor is of
   std::vector<Column> columns_;
   std::vector<Coupling> couplings_;
   std::vector<Mat3> blocks_, scaled_, diagonal_, inverse_;

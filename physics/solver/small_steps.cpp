@@ -23,7 +23,7 @@ constexpr double kPeriods = 0.25, kDamping = 2;
 constexpr double kLargestSag = 2e-4;  // of the smaller body, on the average of the load
 constexpr int kMostSubsteps = 64;
 constexpr double kRest = 1e-6;  // what a velocity sweep still changes, of an island's energy in g h^2
-const int kMostSweeps = getenv("MOSTS") ? atoi(getenv("MOSTS")) : 8;
+constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved again in each
 
 Softness softness(double periods, double zeta) {
   const double omega = 2 * kPi * periods;  // omega h
@@ -468,7 +468,6 @@ void SmallSteps::Impl::predict(World::Impl& w, Batch& batch, double h) {
     m.theta = h * omega;
     if (articulationOf[i] >= 0 && !stiffness[i].isZero(0)) {
       masses[i].inertia = (inertia + stiffness[i]).inverse();
-      m.theta = masses[i].inertia * (inertia * m.theta);
     }
   }
 }
@@ -613,7 +612,9 @@ void SmallSteps::Impl::takeOver(Batch& batch, double h) {
       KeptContact& c = contacts[block.contact[l]];
       const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
       for (int k = 0; k < c.count; ++k) {
-        c.before[k] = scale * c.lambda[k];
+        // One that touched when it was first seen has carried its load before.
+        const bool stood = c.step == 0 && block.point[k].gap[l] <= 0;
+        c.before[k] = stood ? block.point[k].lambda[l] : scale * c.lambda[k];
         c.lambda[k] = block.point[k].lambda[l];
       }
       c.tangential.setZero();
@@ -646,10 +647,11 @@ void SmallSteps::Impl::ask(World::Impl& w, Batch& batch, double h) {
       const BodyId body = isMovable(b, c.a) ? c.a : c.b;
       change[islands[body]] += block.change[l];
       const double soft = (1 - block.scale[l]) / (block.scale[l] * block.rate[l]);
+      const bool jointed = articulationOf[c.a] >= 0 || articulationOf[c.b] >= 0;
       const double size = std::min(boundingRadius(b.shape[c.a]), boundingRadius(b.shape[c.b]));
       for (int k = 0; k < c.count; ++k) {
         const double inverse = block.point[k].inverse[l], lambda = std::min(c.lambda[k], c.before[k]);
-        if (!(inverse > 0) || !(size > 0)) continue;
+        if (!(inverse > 0) || !(size > 0) || jointed) continue;
         load[islands[body]] += lambda;
         sag[islands[body]] += lambda * soft * lambda / inverse / size;
       }
@@ -663,7 +665,8 @@ void SmallSteps::Impl::ask(World::Impl& w, Batch& batch, double h) {
     }
     const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;
-    if (relative > kRest) askedSweeps[i] = std::min(kMostSweeps, batch.sweeps + 1);
+    const int most = batch.articulations.empty() ? kMostSweeps : kMostJointedSweeps;
+    if (relative > kRest) askedSweeps[i] = std::min(most, batch.sweeps + 1);
     if (relative < 0.1 * kRest) askedSweeps[i] = std::max(1, batch.sweeps - 1);
   }
 }
@@ -705,7 +708,6 @@ void SmallSteps::step(World::Impl& w, StepReport& report) {
   // Where pairs come closer by more than they are watched within, contacts are looked for twice.
   const int looks =
       w.touches && s.fastest(w, dt) > w.settings.contact->margin && w.settings.substeps > 1 ? 2 : 1;
-  if (getenv("SMALLDBG") && w.stepCount % 30 == 29) { fprintf(stderr, "step %d looks %d contacts %zu batches", int(w.stepCount), looks, s.contacts.size()); for (size_t k = 0; k < s.batchCount; ++k) fprintf(stderr, " %dx%d:%zu/%zu", s.batches[k].substeps, s.batches[k].sweeps, s.batches[k].contacts.size(), s.batches[k].blocks.size()); fprintf(stderr, "\n"); }
   for (int part = 0; part < looks; ++part) {
     if (part > 0) {
       while (!s.look(w, dt / looks)) {
