@@ -5,11 +5,12 @@
 
 #include "physics/world.h"
 #include "tests/physics/kind_cases.h"
+#include "tests/physics/points.h"
 
 namespace physics::testing {
 namespace {
 
-constexpr double kStep = 1.0 / 60, kMass = 2;
+constexpr double kMass = 2;
 const Vec3 kPull(1, -9.81, 0);
 
 Settings oneStep() {

@@ -4,12 +4,12 @@
 #include <functional>
 
 #include "physics/world.h"
+#include "tests/physics/not_a_number.h"
 #include "tests/physics/pair.h"
 
 namespace physics::testing {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void expectRefused(const char* what, const std::function<void(Settings&)>& spoil) {

@@ -7,7 +7,7 @@ namespace {
 TEST(Contact, ABlockAtRestStaysWithinANanometreForTenSeconds) {
   World world = slopeOf(0, {});
   world.add(box({0.6, 0.4, 0.5}));
-  run(world, 10);
+  runFor(world, 10);
   EXPECT_LT((place(world) - Vec3(0, 0.2, 0)).norm(), 1e-9);
   // The first sweeps end at Settings::tolerance and leave a turn, measured 2e-9 rad; it stays.
   EXPECT_LT(logarithm(world.bodies().pose[kBody].q).norm(), 5e-9);
@@ -18,7 +18,7 @@ TEST(Contact, CarriesTheWeight) {
   BodyDef def = box({0.6, 0.4, 0.5});
   def.mass = 3;
   world.add(def);
-  run(world, 1);
+  runFor(world, 1);
   Vec3 impulse = Vec3::Zero();
   for (const ContactReport& contact : world.contacts()) {
     impulse += contact.a == kBody ? contact.impulse : -contact.impulse;
@@ -61,7 +61,7 @@ TEST(Contact, AHeavyBallRestsOnALightOne) {
   heavy.mass = 100;
   heavy.pose.x.y() = 1.5;
   world.add(heavy);
-  run(world, 1);
+  runFor(world, 1);
   EXPECT_NEAR(world.bodies().pose[3].x.y(), 1.5, 5e-3);
   EXPECT_LT(world.largestOverlap(), 5e-3);
 }

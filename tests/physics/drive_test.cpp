@@ -3,12 +3,10 @@
 
 #include "physics/world.h"
 #include "tests/physics/pair.h"
-#include "tests/physics/sweeps.h"
+#include "tests/physics/points.h"
 
 namespace physics::testing {
 namespace {
-
-constexpr double kStep = 1.0 / 60;
 
 // Torque on body 1 when it is held `degrees` past its target: two bodies of .0222, so I_eff =
 // .0111.
@@ -40,14 +38,6 @@ TEST(Drive, LimitsTheTorqueByItsLengthInAnyDirection) {
   bodies.pose[1].q = bodies.start[1].q = about({1, -2, 2}, 1.5);
   const auto lambda = iterate(Drive{{0, 1}, Quat::Identity(), 2, 0, 1}, bodies, 20, kStep);
   EXPECT_LT((lambda.total / (kStep * kStep) - Vec3(-1, 2, -2) / 3).norm(), 1e-12);
-}
-
-Settings oneStep() {
-  Settings settings = sweeps();
-  settings.dt = kStep;
-  settings.substeps = 1;
-  settings.iterations = 1;
-  return settings;
 }
 
 BodyDef ballOf(double inertia, double speed) {
@@ -84,7 +74,7 @@ double angleAboutZ(const World& world, BodyId body) {
 
 TEST(Drive, EqualsImplicitEuler) {
   constexpr double kInertia = 0.4, kStiffness = 30, kDamping = 0.5;
-  World world(oneStep());
+  World world(steps(1, 1));
   const BodyId body = world.add(ballOf(kInertia, 2));
   world.add(driveOf(kWorldBody, body, 0.3, kStiffness, kDamping));
   double theta = -0.3, omega = 2;  // of the error
@@ -100,7 +90,7 @@ TEST(Drive, EqualsImplicitEuler) {
 
 TEST(Drive, BetweenTwoBodiesEqualsImplicitEulerOfTheirRelativeTurn) {
   constexpr double kStiffness = 30, kDamping = 0.5, kReduced = 0.4 * 0.1 / (0.4 + 0.1);
-  World world(oneStep());
+  World world(steps(1, 1));
   const BodyId a = world.add(ballOf(0.4, 0)), b = world.add(ballOf(0.1, 3));
   world.add(driveOf(a, b, 0, kStiffness, kDamping));
   double theta = 0, omega = 3;
@@ -115,7 +105,7 @@ TEST(Drive, BetweenTwoBodiesEqualsImplicitEulerOfTheirRelativeTurn) {
 }
 
 TEST(Drive, ReportsTheTorqueThatTurnedTheBody) {
-  World world(oneStep());
+  World world(steps(1, 1));
   const BodyId body = world.add(ballOf(0.4, 0));
   const int drive = world.add(driveOf(kWorldBody, body, 0.3, 30, 0.5));
   world.step();
@@ -125,7 +115,7 @@ TEST(Drive, ReportsTheTorqueThatTurnedTheBody) {
 }
 
 TEST(Drive, FollowsANewTarget) {
-  World world(oneStep());
+  World world(steps(1, 1));
   const BodyId body = world.add(ballOf(0.4, 0));
   const int drive = world.add(driveOf(kWorldBody, body, 0, 30, 3));
   world.setDriveTarget(drive, about({0, 0, 1}, -1));
@@ -134,7 +124,7 @@ TEST(Drive, FollowsANewTarget) {
 }
 
 World motorWorld(double maxTorque) {
-  World world(oneStep());
+  World world(steps(1, 1));
   const BodyId body = world.add(ballOf(0.4, 0));
   world.add(motorOf(kWorldBody, body, maxTorque));
   return world;
@@ -159,7 +149,7 @@ TEST(Motor, WithoutALimitRunsAtSpeedAfterOneStep) {
 }
 
 TEST(Motor, BetweenTwoBodiesSharesTheTurnByTheirInertias) {
-  World world(oneStep());
+  World world(steps(1, 1));
   const BodyId a = world.add(ballOf(0.4, 0)), b = world.add(ballOf(0.1, 0));
   world.add(motorOf(a, b, kNoLimit));
   world.step();

@@ -6,11 +6,12 @@
 #include "physics/constraints/hardening_spring.h"
 #include "physics/constraints/spring.h"
 #include "tests/physics/dense.h"
+#include "tests/physics/points.h"
 
 namespace physics::testing {
 namespace {
 
-constexpr double kStep = 1.0 / 60, kStiffness = 800, kDamping = 3;
+constexpr double kStiffness = 800, kDamping = 3;
 constexpr double kAlpha = kStiffness * kStep * kStep + kDamping * kStep;  // (115)
 
 struct Sprung {
@@ -63,7 +64,7 @@ TEST(Equation108, TheForceAndItsTorquesAreThoseOfTheSpring) {  // (108)-(112)
 
 // Column k: the derivative of `of` by coordinate k of both bodies.
 template <class F>
-Eigen::MatrixXd slopeOf(const Sprung& spring, F of) {
+Eigen::MatrixXd derivativeOf(const Sprung& spring, F of) {
   constexpr double kSmall = 1e-5;
   Eigen::MatrixXd slope(of(spring).size(), 12);
   for (int k = 0; k < 12; ++k) {
@@ -79,7 +80,7 @@ Eigen::MatrixXd slopeOf(const Sprung& spring, F of) {
 
 TEST(Equation113, TheForceFallsOffByAlphaAlongQ) {
   const Sprung spring(71);
-  const auto slope = slopeOf(spring, [](const Sprung& s) { return s.force(); });
+  const auto slope = derivativeOf(spring, [](const Sprung& s) { return s.force(); });
   EXPECT_LT((slope + kAlpha * spring.q().transpose()).norm(), 1e-9);
   const auto push = rowOf(spring.item, spring.bodies, kStep);
   EXPECT_LT((push.k - kAlpha * Mat3::Identity()).norm(), 1e-15);  // (104),(115)
@@ -88,7 +89,7 @@ TEST(Equation113, TheForceFallsOffByAlphaAlongQ) {
 // (114) leaves out how the levers turn, [f]x[r]x. That costs iterations, not the end of them.
 TEST(Equation114, IsTheDerivativeButForTheTurnOfTheLevers) {
   const Sprung spring(72);
-  const auto slope = slopeOf(spring, [](const Sprung& s) { return s.load(); });
+  const auto slope = derivativeOf(spring, [](const Sprung& s) { return s.load(); });
   const Eigen::MatrixXd written = -kAlpha * spring.q() * spring.q().transpose();
   Eigen::MatrixXd levers = Eigen::MatrixXd::Zero(12, 12);
   levers.block<3, 3>(3, 3) = skew(spring.force()) * skew(spring.arm(0));

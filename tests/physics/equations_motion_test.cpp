@@ -7,11 +7,11 @@
 
 #include "physics/measure.h"
 #include "tests/physics/pair.h"
+#include "tests/physics/points.h"
 
 namespace physics::testing {
 namespace {
 
-constexpr double kStep = 1.0 / 60;
 const Vec3 kInertia(1, 2, 2.5);
 
 // (4),(5),(18): d(q r0 q̄)/dt = omega x r.

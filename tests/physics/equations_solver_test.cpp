@@ -52,7 +52,7 @@ struct Rods {
 
 // k sweeps over A lambda = -c in place, above (49); `jacobi`: with lambda^k for all others, as the
 // last of its lines prints.
-Eigen::VectorXd sweeps(const Dense& d, int count, bool jacobi) {
+Eigen::VectorXd sweptByHand(const Dense& d, int count, bool jacobi) {
   const Eigen::MatrixXd a = d.a();
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(d.c.size());
   for (int k = 0; k < count; ++k) {
@@ -69,7 +69,7 @@ TEST(Equation51, TheLinearMethodIsGaussSeidelInPlaceOnTheDenseSystem) {
   for (const int count : {1, 2, 3, 10}) {
     Rods rods(Method::kLinearGaussSeidel, count);
     const Dense dense = rods.dense();
-    EXPECT_LT((rods.moved() - sweeps(dense, count, false)).norm(), 1e-14) << count;
+    EXPECT_LT((rods.moved() - sweptByHand(dense, count, false)).norm(), 1e-14) << count;
   }
 }
 
@@ -77,8 +77,8 @@ TEST(Erratum49, EarlierMultipliersAreThoseOfThisSweep) {
   Rods rods(Method::kLinearGaussSeidel, 2);
   const Dense dense = rods.dense();
   const Eigen::VectorXd ours = rods.moved();
-  EXPECT_GT((ours - sweeps(dense, 2, true)).norm(), 1e-3);
-  EXPECT_LT((ours - sweeps(dense, 2, false)).norm(), 1e-14);
+  EXPECT_GT((ours - sweptByHand(dense, 2, true)).norm(), 1e-3);
+  EXPECT_LT((ours - sweptByHand(dense, 2, false)).norm(), 1e-14);
 }
 
 // (40) whole: [M -J^T; J 0] (dX, lambda h^2) = (0, -c).

@@ -18,7 +18,9 @@ Bodies apart(double angle) {  // x axes an angle apart, equal isotropic bodies
   return bodies;
 }
 Vec3 x(const Bodies& bodies, int b) { return bodies.pose[b].q * Vec3::UnitX(); }
-double angle(const Bodies& bodies) { return angleOf(x(bodies, 0), x(bodies, 1)) / kDegree; }
+double angleInDegrees(const Bodies& bodies) {
+  return angleOf(x(bodies, 0), x(bodies, 1)) / kDegree;
+}
 const ConeLimit kAlong{{0, 1}, {Vec3::UnitX(), Vec3::UnitX()}, 0};  // c = phi
 
 // One iteration of (85) as printed, (86) for phi.
@@ -34,13 +36,13 @@ TEST(Erratum85, AsPrintedTheAxleOpens) {
   Bodies printed = apart(40 * kDegree);
   for (const double expected : {80.0, 160.0, 180.0}) {
     printed85(printed);
-    EXPECT_NEAR(angle(printed), expected, 1e-6);
+    EXPECT_NEAR(angleInDegrees(printed), expected, 1e-6);
   }
   Bodies ours = apart(40 * kDegree);
   Mat3 frame;
   frame << Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX();
   iterate(Axle{{0, 1}, Vec3::UnitX(), frame}, ours, 1);
-  EXPECT_LT(angle(ours), 1e-10);
+  EXPECT_LT(angleInDegrees(ours), 1e-10);
 }
 
 TEST(Erratum81, TheGradientOfTheAngleIsMinusWForTheFirstBody) {
@@ -48,7 +50,7 @@ TEST(Erratum81, TheGradientOfTheAngleIsMinusWForTheFirstBody) {
   const Vec3 w = x(bodies, 0).cross(x(bodies, 1)).normalized();
   Bodies turned = bodies;
   displace(turned.pose[0], Vec3::Zero(), 1e-4 * w);
-  const double difference = (angle(turned) - angle(bodies)) * kDegree / 1e-4;
+  const double difference = (angleInDegrees(turned) - angleInDegrees(bodies)) * kDegree / 1e-4;
   EXPECT_NEAR(difference, -1, 1e-9);  // printed: +1
   EXPECT_NEAR(rowOf(kAlong, bodies).angular[0].dot(w.transpose()), -1, 1e-12);
   EXPECT_NEAR(rowOf(kAlong, bodies).angular[1].dot(w.transpose()), 1, 1e-12);
@@ -103,7 +105,7 @@ TEST(Erratum129, WithWiCrossWjTheDriveRunsAway) {
 TEST(Erratum129, OursTurnsTowardsTheTarget) {
   Bodies bodies = apart(1);
   iterate(Drive{{0, 1}, Quat::Identity(), 20, 0}, bodies, 1);
-  EXPECT_LT(angle(bodies) * kDegree, 1);
+  EXPECT_LT(angleInDegrees(bodies) * kDegree, 1);
   EXPECT_NEAR(x(bodies, 1).y(), std::sin(logarithm(bodies.pose[1].q).z()), 1e-12);
 }
 

@@ -18,7 +18,7 @@ Settings collisions(double dt, double restitution) {
   return settings;
 }
 
-BodyDef ball(double mass, const Vec3& x, const Vec3& v) {
+BodyDef metreBall(double mass, const Vec3& x, const Vec3& v) {
   BodyDef def;
   def.shape = Sphere{0.5};
   def.mass = mass;
@@ -64,7 +64,7 @@ TEST_P(Impact, OfABallDoesNotTunnelThroughAThinWall) {
     wall.shape = Box{Vec3(0.05, 4, 4)};
     wall.motion = Motion::kStatic;
     world.add(wall);
-    world.add(ball(1, Vec3(-7.3, 0.1, 0.2), Vec3(GetParam(), 0, 0)));
+    world.add(metreBall(1, Vec3(-7.3, 0.1, 0.2), Vec3(GetParam(), 0, 0)));
     while (world.stepCount() * dt < 10 / GetParam()) world.step();
     EXPECT_LT(world.bodies().pose[2].x.x(), -0.5);
   }
@@ -74,8 +74,8 @@ TEST_P(Impact, OfABallDoesNotTunnelThroughAThinWall) {
 TEST(Restitution, OfTwoBallsIsTheClosedForm) {
   for (const double e : {0.0, 0.5, 1.0}) {
     World world(collisions(1.0 / 60, e));
-    world.add(ball(2, Vec3(-2, 0, 0), Vec3(3, 0, 0)));
-    world.add(ball(1, Vec3::Zero(), Vec3::Zero()));
+    world.add(metreBall(2, Vec3(-2, 0, 0), Vec3(3, 0, 0)));
+    world.add(metreBall(1, Vec3::Zero(), Vec3::Zero()));
     for (int k = 0; k < 120; ++k) world.step();
     EXPECT_NEAR(world.bodies().velocity[1].v.x(), (2 - e) * 3 / 3, 1e-9);
     EXPECT_NEAR(world.bodies().velocity[2].v.x(), (1 + e) * 2 * 3 / 3, 1e-9);
@@ -84,8 +84,8 @@ TEST(Restitution, OfTwoBallsIsTheClosedForm) {
 
 TEST(Restitution, OfZeroEndsTheApproach) {
   World world(collisions(1.0 / 60, 0));
-  world.add(ball(2, Vec3(-2, 0, 0), Vec3(3, 0, 0)));
-  world.add(ball(1, Vec3::Zero(), Vec3::Zero()));
+  world.add(metreBall(2, Vec3(-2, 0, 0), Vec3(3, 0, 0)));
+  world.add(metreBall(1, Vec3::Zero(), Vec3::Zero()));
   for (int k = 0; k < 120; ++k) world.step();
   EXPECT_NEAR(world.bodies().velocity[1].v.x(), 2, 1e-12);
   EXPECT_NEAR(world.bodies().velocity[2].v.x(), 2, 1e-12);
@@ -97,8 +97,8 @@ TEST(Overlap, IsUndoneAtTheSeparationSpeedAndLeavesNone) {
   Settings settings = collisions(1.0 / 60, 0);
   settings.contact->maxSeparationSpeed = 0.6;  // .01 m a step
   World world(settings);
-  world.add(ball(1, Vec3(-0.45, 0, 0), Vec3::Zero()));
-  world.add(ball(1, Vec3(0.45, 0, 0), Vec3::Zero()));
+  world.add(metreBall(1, Vec3(-0.45, 0, 0), Vec3::Zero()));
+  world.add(metreBall(1, Vec3(0.45, 0, 0), Vec3::Zero()));
   world.step();
   const auto& bodies = world.bodies();
   EXPECT_NEAR(bodies.pose[2].x.x() - bodies.pose[1].x.x(), 0.91, 1e-12);  // from .9

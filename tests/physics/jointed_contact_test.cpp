@@ -21,14 +21,14 @@ class JointedContact : public ::testing::TestWithParam<Method> {
   }
 };
 
-void addGround(World& world) {
+void addFloor(World& world) {
   BodyDef ground;
   ground.shape = Plane{Vec3(0, 1, 0), 0};
   ground.motion = Motion::kStatic;
   world.add(ground);
 }
 
-BodyId addBox(World& world, const Vec3& size, const Vec3& x, double mass) {
+BodyId addBlock(World& world, const Vec3& size, const Vec3& x, double mass) {
   BodyDef box;
   box.shape = Box{size};
   box.pose.x = x;
@@ -61,9 +61,9 @@ struct Sunk {
   World world;
   BodyId a, b;
   explicit Sunk(const Settings& settings) : world(settings) {
-    addGround(world);
-    a = addBox(world, Vec3(0.4, 0.4, 0.4), Vec3(0, 0.19, 0), 1);
-    b = addBox(world, Vec3(0.4, 0.2, 0.2), Vec3(0.45, 0.3, 0), 2);
+    addFloor(world);
+    a = addBlock(world, Vec3(0.4, 0.4, 0.4), Vec3(0, 0.19, 0), 1);
+    b = addBlock(world, Vec3(0.4, 0.2, 0.2), Vec3(0.45, 0.3, 0), 2);
     join(world, a, b, Vec3(0.22, 0.3, 0));
   }
 };
@@ -101,11 +101,11 @@ TEST_P(JointedContact, LightFeetUnderAHeavyBodyRestAtTenStepsASecond) {
   s.substeps = 1;
   s.gravity = Vec3(0, -9.81, 0);
   World world(s);
-  addGround(world);
-  const BodyId body = addBox(world, Vec3(1, 0.3, 0.6), Vec3(0, 0.45, 0), 64);
+  addFloor(world);
+  const BodyId body = addBlock(world, Vec3(1, 0.3, 0.6), Vec3(0, 0.45, 0), 64);
   for (const double x : {-0.4, 0.4}) {
     for (const double z : {-0.2, 0.2}) {
-      const BodyId foot = addBox(world, Vec3(0.1, 0.2, 0.1), Vec3(x, 0.15, z), 0.4);
+      const BodyId foot = addBlock(world, Vec3(0.1, 0.2, 0.1), Vec3(x, 0.15, z), 0.4);
       join(world, body, foot, Vec3(x, 0.28, z));
     }
   }
@@ -145,8 +145,8 @@ class MaxCorrectionSpeed : public ::testing::TestWithParam<Way> {
 // 0.5 m at 2 m/s, and by the motion that the last substep leaves a little faster.
 TEST_P(MaxCorrectionSpeed, AnOpenJointClosesNoFaster) {
   World world(settings());
-  const BodyId a = addBox(world, Vec3(0.2, 0.2, 0.2), Vec3(0, 0, 0), 1);
-  const BodyId b = addBox(world, Vec3(0.2, 0.2, 0.2), Vec3(0.5, 0, 0), 3);
+  const BodyId a = addBlock(world, Vec3(0.2, 0.2, 0.2), Vec3(0, 0, 0), 1);
+  const BodyId b = addBlock(world, Vec3(0.2, 0.2, 0.2), Vec3(0.5, 0, 0), 3);
   BallSocketDef joint;
   joint.bodies = {a, b};
   joint.anchors = {{Vec3::Zero(), Vec3::Zero()}};

@@ -115,7 +115,7 @@ TEST(Rope, BendsOverEveryThreeNodesOnRequest) {
   EXPECT_NEAR(world.springEnergy(), energy, 1e-12 * energy);
 }
 
-std::string refusal(const RopeDef& def) {
+std::string ropeRefusal(const RopeDef& def) {
   World world;
   try {
     add(world, def);
@@ -126,22 +126,23 @@ std::string refusal(const RopeDef& def) {
 }
 
 TEST(Rope, RefusesWhatCannotBe) {
-  EXPECT_EQ(refusal(ropeOf(1)), "expected at least 2 nodes");
+  EXPECT_EQ(ropeRefusal(ropeOf(1)), "expected at least 2 nodes");
   RopeDef def = ropeOf(5);
   def.length = 2.5;
-  EXPECT_EQ(refusal(def), "expected a length of at least |to - from| = 3.000000 m, got 2.500000 m");
+  EXPECT_EQ(ropeRefusal(def),
+            "expected a length of at least |to - from| = 3.000000 m, got 2.500000 m");
   def = ropeOf(5);
   def.to = def.from;
-  EXPECT_EQ(refusal(def), "expected 'to' away from 'from', or a length");
+  EXPECT_EQ(ropeRefusal(def), "expected 'to' away from 'from', or a length");
   def = ropeOf(5);
   def.to.reset();
-  EXPECT_EQ(refusal(def), "expected 'to' or 'direction'");
+  EXPECT_EQ(ropeRefusal(def), "expected 'to' or 'direction'");
   def.direction = Vec3::UnitX();
-  EXPECT_EQ(refusal(def), "expected 'length' or 'to', which it follows from");
+  EXPECT_EQ(ropeRefusal(def), "expected 'length' or 'to', which it follows from");
   def = ropeOf(5);
   def.pins = RopePins::kStart;
   def.attach = RopeAttachments{BodyRef{kWorldBody}, {}};
-  EXPECT_EQ(refusal(def), "expected an end in 'pins' or in 'attach', not in both");
+  EXPECT_EQ(ropeRefusal(def), "expected an end in 'pins' or in 'attach', not in both");
 }
 
 }  // namespace

@@ -9,11 +9,11 @@
 #include "physics/measure.h"
 #include "physics/state.h"
 #include "tests/physics/arms.h"
+#include "tests/physics/not_a_number.h"
 
 namespace physics::testing {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 struct Way {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDuration = 0.4;  // s
 
-BodyId point(World& world, const Vec3& x, const Vec3& v = Vec3::Zero(), double mass = 1) {
+BodyId addPoint(World& world, const Vec3& x, const Vec3& v = Vec3::Zero(), double mass = 1) {
   BodyDef def;
   def.mass = mass;
   def.pose.x = x;
@@ -31,7 +31,7 @@ BodyId brick(World& world, const Vec3& x, const Vec3& w = Vec3(0.5, -1, 2)) {
 World pendulum(const Settings& s) {
   World world(s);
   DistanceDef rod;
-  rod.bodies = {kWorldBody, point(world, Vec3(0.6, -0.8, 0), Vec3(0, 0, 1))};
+  rod.bodies = {kWorldBody, addPoint(world, Vec3(0.6, -0.8, 0), Vec3(0, 0, 1))};
   world.add(rod);
   return world;
 }
@@ -41,7 +41,7 @@ World threeLinks(const Settings& s) {
   BodyId last = kWorldBody;
   for (int k = 1; k <= 3; ++k) {
     LinkDef link;
-    link.bodies = {last, point(world, Vec3(0.3 * k, 0, 0), Vec3(0, 0, 0.2 * k))};
+    link.bodies = {last, addPoint(world, Vec3(0.3 * k, 0, 0), Vec3(0, 0, 0.2 * k))};
     last = link.bodies[1];
     world.add(link);
   }
@@ -151,8 +151,8 @@ World motors(const Settings& s) {
 World planets(const Settings& s) {
   World world(s);
   PointGravityDef def;
-  def.bodies = {point(world, Vec3::Zero(), Vec3(0, 0, -0.1), 5),
-                point(world, Vec3(1, 0, 0), Vec3(0, 1.5, 0.5), 1)};
+  def.bodies = {addPoint(world, Vec3::Zero(), Vec3(0, 0, -0.1), 5),
+                addPoint(world, Vec3(1, 0, 0), Vec3(0, 1.5, 0.5), 1)};
   def.strength = 3;
   world.add(def);
   return world;
@@ -163,7 +163,7 @@ World rope(const Settings& s, bool whole) {
   World world(s);
   std::vector<BodyId> nodes;
   for (int k = 0; k < 5; ++k) {
-    nodes.push_back(point(world, Vec3(0.2 * k, 0.03 * k * k, 0), Vec3(0, 0, 0.3 * k * k), 0.2));
+    nodes.push_back(addPoint(world, Vec3(0.2 * k, 0.03 * k * k, 0), Vec3(0, 0, 0.3 * k * k), 0.2));
   }
   for (int k = 0; k < 4 && !whole; ++k) {
     LinkDef link;
@@ -197,9 +197,9 @@ World wholeRope(const Settings& s) { return rope(s, true); }
 // A tetrahedron that keeps its volume, with springs for edges and wind on a face.
 World tetrahedron(const Settings& s) {
   World world(s);
-  const std::array<BodyId, 4> p{point(world, Vec3(0, 0, 0)), point(world, Vec3(1, 0, 0)),
-                                point(world, Vec3(0, 1.2, 0), Vec3(0, 0, 1)),
-                                point(world, Vec3(0, 0, 1), Vec3(0.5, 0, 0))};
+  const std::array<BodyId, 4> p{addPoint(world, Vec3(0, 0, 0)), addPoint(world, Vec3(1, 0, 0)),
+                                addPoint(world, Vec3(0, 1.2, 0), Vec3(0, 0, 1)),
+                                addPoint(world, Vec3(0, 0, 1), Vec3(0.5, 0, 0))};
   VolumeDef volume;
   volume.bodies = p;
   world.add(volume);

@@ -2,13 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "physics/measure.h"
+#include "tests/physics/gravity.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
-
-constexpr double kGravity = 9.81;
 
 Settings bouncing(double h, double restitution, bool gravity) {
   Settings settings = sweeps();
@@ -22,7 +21,7 @@ Settings bouncing(double h, double restitution, bool gravity) {
   return settings;
 }
 
-BodyDef ball(double mass, const Vec3& x, const Vec3& v) {
+BodyDef smallBall(double mass, const Vec3& x, const Vec3& v) {
   BodyDef def;
   def.shape = Sphere{0.1};
   def.mass = mass;
@@ -48,7 +47,7 @@ struct Bounce {
 Bounce bounceOnce(double h, double restitution, double height, double speed) {
   World world(bouncing(h, restitution, true));
   world.add(ground());
-  world.add(ball(1, Vec3(0, height, 0), Vec3(0, speed, 0)));
+  world.add(smallBall(1, Vec3(0, height, 0), Vec3(0, speed, 0)));
   world.step();
   const double y = world.bodies().pose[2].x.y(), v = world.bodies().velocity[2].v.y();
   return {0.5 * v * v + kGravity * (y - 0.1), y, v};
@@ -73,8 +72,8 @@ TEST(Restitution, FliesOnAfterTheImpactAsTheParabolaDoes) {
 // Two free balls that meet obliquely keep their momentum and, at e = 1, their energy.
 TEST(Restitution, OfFreeBallsKeepsMomentumAndEnergy) {
   World world(bouncing(0.01, 1, false));
-  world.add(ball(1, Vec3(0, 0, 0), Vec3(3, 0.2, 0)));
-  world.add(ball(2, Vec3(0.5, 0.1, 0), Vec3(-1, 0, 0.1)));
+  world.add(smallBall(1, Vec3(0, 0, 0), Vec3(3, 0.2, 0)));
+  world.add(smallBall(2, Vec3(0.5, 0.1, 0), Vec3(-1, 0, 0.1)));
   const Measures before = measure(world);
   for (int k = 0; k < 50; ++k) world.step();
   const Measures after = measure(world);
@@ -90,7 +89,7 @@ std::vector<double> afterCradle(int in, double restitution, Stepping stepping = 
   World world(settings);
   for (int k = 0; k < 5; ++k) {
     const bool moves = k < in;
-    world.add(ball(1, Vec3(0.2 * k - (moves ? 0.5 : 0), 0, 0), Vec3(moves ? 1 : 0, 0, 0)));
+    world.add(smallBall(1, Vec3(0.2 * k - (moves ? 0.5 : 0), 0, 0), Vec3(moves ? 1 : 0, 0, 0)));
   }
   for (int k = 0; k < 100; ++k) world.step();
   std::vector<double> speeds;
@@ -122,9 +121,9 @@ TEST(Restitution, BelowOneSpreadsOverACradleAsPairsInTurn) {
 
 TEST(Restitution, GoesThroughARowOfGrowingMassesAsPairsInTurn) {
   World world(bouncing(0.01, 1, false));
-  world.add(ball(1, Vec3(-0.7, 0, 0), Vec3(1, 0, 0)));
-  world.add(ball(10, Vec3(0, 0, 0), Vec3::Zero()));
-  world.add(ball(100, Vec3(0.2, 0, 0), Vec3::Zero()));
+  world.add(smallBall(1, Vec3(-0.7, 0, 0), Vec3(1, 0, 0)));
+  world.add(smallBall(10, Vec3(0, 0, 0), Vec3::Zero()));
+  world.add(smallBall(100, Vec3(0.2, 0, 0), Vec3::Zero()));
   for (int k = 0; k < 100; ++k) world.step();
   EXPECT_NEAR(world.bodies().velocity[1].v.x(), -0.818181818182, 1e-9);
   EXPECT_NEAR(world.bodies().velocity[2].v.x(), -0.148760330579, 1e-9);

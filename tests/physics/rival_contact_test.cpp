@@ -30,7 +30,7 @@ BodyId addBox(World& world, const Vec3& size, double bottom) {
   return world.add(box);
 }
 
-void run(World& world, int steps) {
+void stepOn(World& world, int steps) {
   for (int k = 0; k < steps; ++k) ASSERT_FALSE(world.step().notFinite) << "step " << k;
 }
 
@@ -59,7 +59,7 @@ Slack slackOf(Method method) {
 TEST_P(RivalContact, ABlockRests) {
   World world = planeWith(settings(60, 8), 0, 0.5);
   const BodyId box = addBox(world, Vec3(1, 0.5, 1), 0);
-  run(world, 120);
+  stepOn(world, 120);
   const Vec3 moved = world.bodies().pose[box].x - Vec3(0, 0.25, 0);
   EXPECT_LT(std::abs(moved.y()), slackOf(GetParam().method).sink);
   EXPECT_LT(moved.norm() - std::abs(moved.y()), 2 * slackOf(GetParam().method).creep);
@@ -70,9 +70,9 @@ TEST_P(RivalContact, ABlockHoldsAtNineTenthsOfTheFrictionItNeeds) {
   const double slope = 0.35;
   World world = planeWith(settings(60, 8), slope, std::tan(slope) / 0.9);
   const BodyId box = addBox(world, Vec3(0.6, 0.3, 0.4), 0);
-  run(world, 30);
+  stepOn(world, 30);
   const double settled = world.bodies().pose[box].x.x();
-  run(world, 120);
+  stepOn(world, 120);
   EXPECT_NEAR(world.bodies().pose[box].x.x(), settled, 2 * slackOf(GetParam().method).creep);
 }
 
@@ -80,7 +80,7 @@ TEST_P(RivalContact, ABlockSlidesAtElevenTenths) {
   const double slope = 0.35, friction = std::tan(slope) / 1.1;
   World world = planeWith(settings(60, 8), slope, friction);
   const BodyId box = addBox(world, Vec3(0.6, 0.3, 0.4), 0);
-  run(world, 120);
+  stepOn(world, 120);
   const double exact = 0.5 * 9.81 * (std::sin(slope) - friction * std::cos(slope)) * 4;
   const double rubbed = 0.5 * 9.81 * friction * std::cos(slope) * 4;        // by friction alone
   const double missing = GetParam().method == Method::kXpbd ? 0.06 : 0.02;  // of the friction
@@ -91,7 +91,7 @@ TEST_P(RivalContact, AStackOfFiveStands) {
   World world = planeWith(settings(60, 8), 0, 0.6);
   BodyId top = 0;
   for (int k = 0; k < 5; ++k) top = addBox(world, Vec3(1, 1, 1), k);
-  run(world, 300);
+  stepOn(world, 300);
   const Slack slack = slackOf(GetParam().method);
   EXPECT_NEAR(world.bodies().pose[top].x.y(), 4.5, slack.stack);
   EXPECT_LT(world.bodies().pose[top].x.head<1>().norm(), 5 * 5 * slack.creep);
@@ -117,7 +117,7 @@ World collision(Settings s, double restitution) {
 TEST_P(RivalContact, ACollisionKeepsTheMomentum) {
   World world = collision(settings(60, 4), 0);
   const Measures before = measure(world);
-  run(world, 60);
+  stepOn(world, 60);
   const Measures after = measure(world);
   EXPECT_LT((after.linearMomentum - before.linearMomentum).norm(), 1e-11);
   EXPECT_LT(after.kinetic, 0.9 * before.kinetic);  // it did happen

@@ -18,7 +18,7 @@ Settings direct(double h) {
   return settings;
 }
 
-BodyDef box(const Vec3& x) {
+BodyDef boxAt(const Vec3& x) {
   BodyDef def;
   def.shape = Box{Vec3(0.3, 0.2, 0.1)};
   def.mass = 2;
@@ -32,7 +32,7 @@ TEST(Prismatic, SlidesDownItsAxisAsOnAnInclineWithoutFriction) {
   settings.gravity = Vec3(0, -9.81, 0);
   World world(settings);
   PrismaticDef joint;
-  joint.bodies = {kWorldBody, world.add(box(Vec3(0.1, 0.2, 0.3)))};
+  joint.bodies = {kWorldBody, world.add(boxAt(Vec3(0.1, 0.2, 0.3)))};
   joint.at = Vec3(0.5, 0, 0);
   joint.axis = Vec3(3, 4, 0);
   add(world, joint);
@@ -49,7 +49,7 @@ TEST(Prismatic, StopsAtItsLimits) {
   settings.gravity = Vec3(-3, 0, 0);
   World world(settings);
   PrismaticDef joint;
-  joint.bodies = {kWorldBody, world.add(box(Vec3::Zero()))};
+  joint.bodies = {kWorldBody, world.add(boxAt(Vec3::Zero()))};
   joint.limits = {{-0.4, 0.2}};
   add(world, joint);
   for (int k = 0; k < 300; ++k) world.step();
@@ -60,7 +60,7 @@ TEST(Prismatic, StopsAtItsLimits) {
 // Two free bodies spin and slide apart; nothing outside acts.
 TEST(Prismatic, KeepsMomentaOfAFreePairAndItsTurn) {
   World world(direct(1e-3));
-  BodyDef first = box(Vec3::Zero()), second = box(Vec3(0.5, 0.1, 0));
+  BodyDef first = boxAt(Vec3::Zero()), second = boxAt(Vec3(0.5, 0.1, 0));
   first.velocity = {Vec3(0, 1, 0), Vec3(1, 2, 3)};
   second.velocity = {Vec3(0.5, 1, 0) + Vec3(1, 2, 3).cross(second.pose.x), Vec3(1, 2, 3)};
   PrismaticDef joint;
@@ -82,11 +82,11 @@ TEST(Prismatic, KeepsMomentaOfAFreePairAndItsTurn) {
 TEST(Universal, TurnsTheSecondShaftByHookesLaw) {
   const double beta = 35 * kDegree;
   World world(direct(1e-4));
-  BodyDef in = box(Vec3(-1, 0, 0));
+  BodyDef in = boxAt(Vec3(-1, 0, 0));
   in.motion = Motion::kKinematic;
   in.velocity.w = Vec3(2, 0, 0);
   const Vec3 out(std::cos(beta), std::sin(beta), 0);  // the bend is in the plane z = 0
-  BodyDef shaft = box(out);
+  BodyDef shaft = boxAt(out);
   shaft.pose.q = about({0, 0, 1}, beta);
   shaft.velocity.w = 2 / std::cos(beta) * out;  // Hooke's speed at the start
   const BodyId first = world.add(in), second = world.add(shaft);
@@ -112,7 +112,7 @@ TEST(Universal, TurnsTheSecondShaftByHookesLaw) {
 TEST(Universal, RefusesDirectionsThatAreNotAtARightAngle) {
   World world;
   UniversalDef joint;
-  joint.bodies = {kWorldBody, world.add(box(Vec3::Zero()))};
+  joint.bodies = {kWorldBody, world.add(boxAt(Vec3::Zero()))};
   joint.directions = {Vec3(1, 0, 0), Vec3(1, 1, 0)};
   EXPECT_THROW(add(world, joint), std::invalid_argument);
 }

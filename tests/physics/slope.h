@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "tests/physics/gravity.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/sweeps.h"
 
 namespace physics::testing {
-
-constexpr double kGravity = 9.81;
 
 // A plane y = 0 with gravity leaning by `slope` towards +x.
 inline World slopeOf(double slope, Friction friction, int substeps = 4) {
@@ -47,7 +46,7 @@ inline BodyDef ball(double radius, double speed) {
   return def;
 }
 
-inline void run(World& world, double seconds) {
+inline void runFor(World& world, double seconds) {
   const int steps = static_cast<int>(std::lround(seconds * 60));
   for (int k = 0; k < steps; ++k) ASSERT_FALSE(world.step().notFinite);
 }

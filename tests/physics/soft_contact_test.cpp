@@ -50,7 +50,7 @@ struct Scene {
 };
 
 // A rope of `count` points along x at a height, linked and touching.
-std::vector<BodyId> rope(Scene& scene, int count, double from, double to, double height) {
+std::vector<BodyId> ropeAcross(Scene& scene, int count, double from, double to, double height) {
   std::vector<BodyId> nodes;
   for (int i = 0; i < count; ++i) {
     nodes.push_back(scene.point(Vec3(from + (to - from) * i / (count - 1), height, 0)));
@@ -93,7 +93,7 @@ TEST(SoftContact, APointRestsOnEveryShape) {
 TEST(SoftContact, ALinkHangsOverAnEdgeThatPassesBetweenItsPoints) {
   Scene scene;
   scene.rigid(Box{Vec3(0.02, 0.5, 1)}, Vec3(0, 0, 0));  // a blade between two points
-  const auto nodes = rope(scene, 2, -0.3, 0.3, 0.4);
+  const auto nodes = ropeAcross(scene, 2, -0.3, 0.3, 0.4);
   scene.run(120);
   EXPECT_NEAR(0.5 * (scene.at(nodes[0]).y() + scene.at(nodes[1]).y()), 0.25 + kRadius, 2e-3);
 }
@@ -101,7 +101,7 @@ TEST(SoftContact, ALinkHangsOverAnEdgeThatPassesBetweenItsPoints) {
 TEST(SoftContact, ARopeFallsOverABallAndStaysOutside) {
   Scene scene(0.6);
   scene.rigid(Sphere{0.5}, Vec3::Zero());
-  const auto nodes = rope(scene, 21, -0.7, 0.7, 0.7);
+  const auto nodes = ropeAcross(scene, 21, -0.7, 0.7, 0.7);
   scene.run(180);
   for (const BodyId node : nodes) EXPECT_GT(scene.at(node).norm(), 0.5 + kRadius - 1e-3);
   EXPECT_LT(scene.at(nodes.front()).y(), 0.3);  // and it hangs down on both sides

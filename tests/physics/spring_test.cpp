@@ -3,27 +3,10 @@
 
 #include "physics/world.h"
 #include "tests/physics/pair.h"
-#include "tests/physics/sweeps.h"
+#include "tests/physics/points.h"
 
 namespace physics::testing {
 namespace {
-
-constexpr double kStep = 1.0 / 60;
-
-Settings oneStep(int iterations) {
-  Settings settings = sweeps();
-  settings.dt = kStep;
-  settings.substeps = 1;
-  settings.iterations = iterations;
-  return settings;
-}
-
-BodyDef point(double mass, const Vec3& x) {
-  BodyDef def;
-  def.mass = mass;
-  def.pose.x = x;
-  return def;
-}
 
 SpringDef springOf(BodyId a, BodyId b, double stiffness, double damping, double rest) {
   SpringDef def;
@@ -36,7 +19,7 @@ SpringDef springOf(BodyId a, BodyId b, double stiffness, double damping, double 
 
 TEST(Spring, EqualsImplicitEulerOfOneDimension) {
   constexpr double kMass = 2, kStiffness = 300, kDamping = 1.5, kRest = 1;
-  World world(oneStep(1));
+  World world(steps(1, 1));
   const BodyId body = world.add(point(kMass, Vec3(1.4, 0, 0)));
   world.add(springOf(kWorldBody, body, kStiffness, kDamping, kRest));
   double stretch = 0.4, speed = 0;
@@ -51,7 +34,7 @@ TEST(Spring, EqualsImplicitEulerOfOneDimension) {
 
 TEST(Spring, TwoInARowReachImplicitEulerWithTheIterations) {
   constexpr double kStiffness = 400;
-  World world(oneStep(200));
+  World world(steps(1, 200));
   const BodyId a = world.add(point(1, Vec3(1.3, 0, 0))), b = world.add(point(2, Vec3(2.1, 0, 0)));
   world.add(springOf(kWorldBody, a, kStiffness, 0, 1));
   world.add(springOf(a, b, kStiffness, 0, 1));
@@ -69,7 +52,7 @@ TEST(Spring, TwoInARowReachImplicitEulerWithTheIterations) {
 
 TEST(Spring, ConvergesToTheExactMotionWithOrderOne) {
   const auto errorAt = [](int substeps) {  // x = cos t after 1 s
-    Settings settings = oneStep(1);
+    Settings settings = steps(1, 1);
     settings.substeps = substeps;
     World world(settings);
     const BodyId body = world.add(point(1, Vec3(2, 0, 0)));

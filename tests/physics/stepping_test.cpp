@@ -5,6 +5,7 @@
 
 #include "physics/measure.h"
 #include "tests/physics/order_cases.h"
+#include "tests/physics/stage.h"
 #include "tests/physics/sweeps.h"
 
 namespace physics::testing {
@@ -30,14 +31,7 @@ Settings withContact(Stepping stepping, double h, double friction, double restit
   return s;
 }
 
-void addGround(World& world) {
-  BodyDef ground;
-  ground.shape = Plane{};
-  ground.motion = Motion::kStatic;
-  world.add(ground);
-}
-
-BodyId addBox(World& world, const Vec3& x, const Vec3& v = Vec3::Zero()) {
+BodyId addCube(World& world, const Vec3& x, const Vec3& v = Vec3::Zero()) {
   BodyDef box;
   box.shape = Box{Vec3(1, 1, 1)};
   box.pose.x = x;
@@ -59,7 +53,7 @@ TEST_P(SecondOrderStepping, FallsByTheParabolaItself) {
 TEST_P(SecondOrderStepping, SlidesToAStopAtTheExactDistance) {
   World world(withContact(GetParam(), 0.01, 0.5));
   addGround(world);
-  const BodyId box = addBox(world, Vec3(0, 0.5, 0), Vec3(3, 0, 0));
+  const BodyId box = addCube(world, Vec3(0, 0.5, 0), Vec3(3, 0, 0));
   for (int k = 0; k < 100; ++k) world.step();
   EXPECT_NEAR(world.bodies().pose[box].x.x(), 0.9, 5e-4);  // the paper's: 0.885
   EXPECT_LT(world.bodies().velocity[box].v.norm(), 2e-5);  // the tolerance of contacts over h
@@ -68,7 +62,7 @@ TEST_P(SecondOrderStepping, SlidesToAStopAtTheExactDistance) {
 TEST_P(SecondOrderStepping, RestsAtRest) {
   World world(withContact(GetParam(), 1.0 / 60, 0.5));
   addGround(world);
-  for (int k = 0; k < 5; ++k) addBox(world, Vec3(0, 0.5 + k, 0));
+  for (int k = 0; k < 5; ++k) addCube(world, Vec3(0, 0.5 + k, 0));
   int restarts = 0;
   for (int k = 0; k < 300; ++k) {
     const StepReport report = world.step();
@@ -82,7 +76,7 @@ TEST_P(SecondOrderStepping, RestsAtRest) {
 TEST_P(SecondOrderStepping, RestartsWhereVelocitiesJumpAndCountsIt) {
   World world(withContact(GetParam(), 0.01, 0.5));
   addGround(world);
-  addBox(world, Vec3(0, 1.5, 0));
+  addCube(world, Vec3(0, 1.5, 0));
   world.step();
   int inFlight = 0, all = 0;
   for (int k = 1; k < 100; ++k) {
@@ -102,9 +96,9 @@ TEST_P(SecondOrderStepping, KeepsMomentumThroughACollision) {
     Settings s = withContact(GetParam(), 0.01, 0.3, restitution);
     s.gravity.reset();
     World world(s);
-    addBox(world, Vec3(0, 0, 0), Vec3(4, 0, 0));
-    addBox(world, Vec3(1.5, 0.4, 0.1), Vec3(-1, 0, 0));
-    addBox(world, Vec3(3, 0, 0));
+    addCube(world, Vec3(0, 0, 0), Vec3(4, 0, 0));
+    addCube(world, Vec3(1.5, 0.4, 0.1), Vec3(-1, 0, 0));
+    addCube(world, Vec3(3, 0, 0));
     const Measures before = measure(world);
     for (int k = 0; k < 100; ++k) {
       world.step();

@@ -118,7 +118,7 @@ World pileAt(const Place& place, bool backwards = false) {
   return world;
 }
 
-void run(World& world, int steps) {
+void stepOn(World& world, int steps) {
   for (int k = 0; k < steps; ++k) ASSERT_FALSE(world.step().notFinite.has_value());
 }
 
@@ -137,7 +137,7 @@ double distance(const World& here, const World& there, const Place& place, int f
   return largest;
 }
 
-struct Way {
+struct Change {
   const char* name;
   Place place;
   double chain, pile;  // m and rad, allowed
@@ -145,22 +145,22 @@ struct Way {
 
 // Chains differ by rounding (2e-12 after a second), piles by which point of a manifold is found
 // first (3e-7). At 1e6 m doubles are 1.2e-10 m apart (chains: 9e-8).
-const Way kWays[] = {{"Turned", turned(), 1e-9, 1e-6},
-                     {"Mirrored", mirrored(), 1e-9, 1e-6},
-                     {"Moved", moved(10), 1e-9, 1e-6},
-                     {"TurnedMirroredAndMoved", all(), 1e-9, 1e-6},
-                     {"AtTenKilometres", moved(1e4), 1e-8, 1e-6},
-                     {"AtAThousandKilometres", moved(1e6), 1e-6, 1e-6}};
+const Change kChanges[] = {{"Turned", turned(), 1e-9, 1e-6},
+                           {"Mirrored", mirrored(), 1e-9, 1e-6},
+                           {"Moved", moved(10), 1e-9, 1e-6},
+                           {"TurnedMirroredAndMoved", all(), 1e-9, 1e-6},
+                           {"AtTenKilometres", moved(1e4), 1e-8, 1e-6},
+                           {"AtAThousandKilometres", moved(1e6), 1e-6, 1e-6}};
 
-void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
+void PrintTo(const Change& change, std::ostream* out) { *out << change.name; }
 
-class Symmetry : public ::testing::TestWithParam<Way> {};
+class Symmetry : public ::testing::TestWithParam<Change> {};
 
 TEST_P(Symmetry, OfAChainSolvedDirectly) {
   const Place& place = GetParam().place;
   World here = chainAt({}, Method::kDirect, Stepping::kBdf2);
   World there = chainAt(place, Method::kDirect, Stepping::kBdf2);
-  run(here, 60), run(there, 60);
+  stepOn(here, 60), stepOn(there, 60);
   EXPECT_GT((here.bodies().pose[10].x - Vec3(2.85, 0, 0)).norm(), 1);  // it has moved
   EXPECT_LT(distance(here, there, place), GetParam().chain);
 }
@@ -169,31 +169,31 @@ TEST_P(Symmetry, OfAChainSolvedBySweeps) {
   const Place& place = GetParam().place;
   World here = chainAt({}, Method::kNonlinearGaussSeidel, Stepping::kPaper);
   World there = chainAt(place, Method::kNonlinearGaussSeidel, Stepping::kPaper);
-  run(here, 60), run(there, 60);
+  stepOn(here, 60), stepOn(there, 60);
   EXPECT_LT(distance(here, there, place), GetParam().chain);
 }
 
 TEST_P(Symmetry, OfAPile) {
   const Place& place = GetParam().place;
   World here = pileAt({}), there = pileAt(place);
-  run(here, 120), run(there, 120);
+  stepOn(here, 120), stepOn(there, 120);
   EXPECT_GT(here.bodies().pose[7].x.x(), 3.2);
   EXPECT_LT(distance(here, there, place, 2), GetParam().pile);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, Symmetry, ::testing::ValuesIn(kWays),
-                         [](const auto& way) { return std::string(way.param.name); });
+INSTANTIATE_TEST_SUITE_P(Ways, Symmetry, ::testing::ValuesIn(kChanges),
+                         [](const auto& change) { return std::string(change.param.name); });
 
 TEST(DeclarationOrder, DoesNotMatterToAChainSolvedDirectly) {
   World one = chainAt({}, Method::kDirect, Stepping::kBdf2);
   World other = chainAt({}, Method::kDirect, Stepping::kBdf2, true);
-  run(one, 60), run(other, 60);
+  stepOn(one, 60), stepOn(other, 60);
   EXPECT_LT(distance(one, other, {}, 1, true), 1e-9);
 }
 
 TEST(DeclarationOrder, MattersToAPileByLessThanAMicrometre) {
   World one = pileAt({}), other = pileAt({}, true);
-  run(one, 120), run(other, 120);
+  stepOn(one, 120), stepOn(other, 120);
   EXPECT_LT(distance(one, other, {}, 2, true), 1e-6);
 }
 

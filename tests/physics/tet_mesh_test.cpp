@@ -6,10 +6,10 @@
 #include <functional>
 #include <map>
 
+#include "tests/physics/not_a_number.h"
+
 namespace physics::testing {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TetMesh oneTet() {
   return {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {{0, 1, 2, 3}}};
@@ -74,7 +74,7 @@ TEST(TetMesh, TurnsInvertedTetrahedraOver) {
   EXPECT_EQ(orient(mesh), 0);
 }
 
-std::string refusal(const std::function<void(TetMesh&)>& spoil) {
+std::string meshRefusal(const std::function<void(TetMesh&)>& spoil) {
   TetMesh mesh = oneTet();
   spoil(mesh);
   try {
@@ -86,22 +86,22 @@ std::string refusal(const std::function<void(TetMesh&)>& spoil) {
 }
 
 TEST(TetMesh, RefusesWhatIsNoSolid) {
-  EXPECT_EQ(refusal([](TetMesh&) {}), "no error");
-  EXPECT_EQ(refusal([](TetMesh& m) { m.tets.clear(); }), "expected at least one tetrahedron");
-  EXPECT_EQ(refusal([](TetMesh& m) { m.tets[0][2] = 4; }),
+  EXPECT_EQ(meshRefusal([](TetMesh&) {}), "no error");
+  EXPECT_EQ(meshRefusal([](TetMesh& m) { m.tets.clear(); }), "expected at least one tetrahedron");
+  EXPECT_EQ(meshRefusal([](TetMesh& m) { m.tets[0][2] = 4; }),
             "tetrahedron 1: expected vertices in [1, 4], got 5");
-  EXPECT_EQ(refusal([](TetMesh& m) { m.tets[0][2] = -1; }),
+  EXPECT_EQ(meshRefusal([](TetMesh& m) { m.tets[0][2] = -1; }),
             "tetrahedron 1: expected vertices in [1, 4], got 0");
-  EXPECT_EQ(refusal([](TetMesh& m) { m.nodes[3].z() = 1e-12; }),
+  EXPECT_EQ(meshRefusal([](TetMesh& m) { m.nodes[3].z() = 1e-12; }),
             "tetrahedron 1 is flat: it has no volume");
-  EXPECT_EQ(refusal([](TetMesh& m) {
+  EXPECT_EQ(meshRefusal([](TetMesh& m) {
               m.tets.push_back({0, 1, 1, 2});
             }),
             "tetrahedron 2 is flat: it has no volume");
-  EXPECT_EQ(refusal([](TetMesh& m) { m.nodes[1].x() = kNaN; }), "vertex 2 is not finite");
-  EXPECT_EQ(refusal([](TetMesh& m) { m.nodes.emplace_back(1, 1, 1); }),
+  EXPECT_EQ(meshRefusal([](TetMesh& m) { m.nodes[1].x() = kNaN; }), "vertex 2 is not finite");
+  EXPECT_EQ(meshRefusal([](TetMesh& m) { m.nodes.emplace_back(1, 1, 1); }),
             "vertex 5 belongs to no tetrahedron, so that it has no mass");
-  EXPECT_EQ(refusal([](TetMesh& m) { m.tets.assign(3, m.tets[0]); }),
+  EXPECT_EQ(meshRefusal([](TetMesh& m) { m.tets.assign(3, m.tets[0]); }),
             "expected at most two tetrahedra on a face, got more on 1 2 3");
 }
 

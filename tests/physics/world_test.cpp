@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "physics/measure.h"
+#include "tests/physics/not_a_number.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 BodyDef boxAt(const Vec3& x) {
   BodyDef def;

@@ -9,21 +9,21 @@
 namespace render {
 namespace {
 
-Renderer& renderer() {
+Renderer& goldenRenderer() {
   static Renderer shared({480, 270, Quality::kStandard, ""});
   return shared;
 }
 
 // Of the size of a golden image.
 const Image& golden() {
-  static const Image image = renderer().draw(samplePicture());
+  static const Image image = goldenRenderer().draw(samplePicture());
   return image;
 }
 
 // The golden image first: a Renderer draws over the image that it returned last.
 Comparison judge(const Picture& picture) {
   const Image& want = golden();
-  return compareImages(want, renderer().draw(picture));
+  return compareImages(want, goldenRenderer().draw(picture));
 }
 
 TEST(Gate, PassesTheSameBytes) {
@@ -58,7 +58,7 @@ TEST(Gate, FailsWhenASmallBodyIsMissing) {
   small.size = Vec3f::Constant(0.12f);
   small.position = {0.4f, 1.4f, 1};
   with.instances.push_back(small);
-  const Comparison result = compareImages(renderer().draw(with), golden());
+  const Comparison result = compareImages(goldenRenderer().draw(with), golden());
   EXPECT_FALSE(result.passed);
   EXPECT_LT(result.visible, 200u);  // it is small
 }

@@ -9,7 +9,7 @@
 namespace render {
 namespace {
 
-Image filled(int width, int height, std::uint8_t value) {
+Image filledImage(int width, int height, std::uint8_t value) {
   return {width, height,
           std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), value)};
 }
@@ -30,7 +30,7 @@ Page pageWithTile() {
   Page page;
   page.width = 200;
   page.height = 120;
-  page.tiles.push_back({10, 20, filled(50, 40, 77)});
+  page.tiles.push_back({10, 20, filledImage(50, 40, 77)});
   return page;
 }
 
@@ -57,8 +57,8 @@ TEST(Page, TextStandsWhereItIsAnchored) {
 
 TEST(Page, WhatReachesOverItIsCut) {
   Page page = pageWithTile();
-  page.tiles.push_back({180, 100, filled(50, 50, 1)});
-  page.tiles.push_back({-30, -30, filled(40, 40, 2)});
+  page.tiles.push_back({180, 100, filledImage(50, 50, 1)});
+  page.tiles.push_back({-30, -30, filledImage(40, 40, 2)});
   const Image image = PagePrinter().print(page);
   EXPECT_EQ(redAt(image, 199, 119), 1);
   EXPECT_EQ(redAt(image, 0, 0), 2);

@@ -10,7 +10,7 @@
 #include "scenes/study_files.h"
 #include "scenes/study_trace.h"
 
-namespace scenes::testing {
+namespace scenes {
 
 struct StudyRun {
   StudyErrors errors;
@@ -19,7 +19,8 @@ struct StudyRun {
 };
 
 // The case with these overrides, over its duration or a shorter one [s].
-inline StudyRun run(const std::string& name, std::vector<std::string> set, double duration = 0) {
+inline StudyRun runStudy(const std::string& name, std::vector<std::string> set,
+                         double duration = 0) {
   StudyCase study = readStudyCase(name);
   if (duration > 0) {
     study.duration = duration;
@@ -42,9 +43,9 @@ inline StudyRun run(const std::string& name, std::vector<std::string> set, doubl
 }
 
 // Overrides for a stepping with the direct method, `substeps` to a sample.
-inline std::vector<std::string> direct(const std::string& stepping, int substeps) {
+inline std::vector<std::string> directly(const std::string& stepping, int substeps) {
   return {"simulation.method=direct", "simulation.stepping=" + stepping,
           "simulation.substeps=" + std::to_string(substeps)};
 }
 
-}  // namespace scenes::testing
+}  // namespace scenes

@@ -4,20 +4,21 @@
 
 #include "tests/scenes/study_runs.h"
 
-namespace scenes::testing {
+namespace scenes {
 namespace {
 
 double orderBetween(const std::string& study, const std::string& stepping, int substeps,
                     double duration) {
-  const double coarse = run(study, direct(stepping, substeps), duration).errors.error;
-  return std::log2(coarse / run(study, direct(stepping, 2 * substeps), duration).errors.error);
+  const double coarse = runStudy(study, directly(stepping, substeps), duration).errors.error;
+  return std::log2(coarse /
+                   runStudy(study, directly(stepping, 2 * substeps), duration).errors.error);
 }
 
 TEST(Accuracy, OfThePendulumAtAMillisecond) {  // 10 samples a second, 100 substeps each
-  const StudyRun symmetric = run("pendulum", direct("symmetric", 100));
+  const StudyRun symmetric = runStudy("pendulum", directly("symmetric", 100));
   EXPECT_LT(symmetric.errors.error, 1e-4);  // m, measured 6.0e-5
   EXPECT_LT(symmetric.worst.energyDrift, 1e-5);
-  const StudyRun bdf2 = run("pendulum", direct("bdf2", 100));
+  const StudyRun bdf2 = runStudy("pendulum", directly("bdf2", 100));
   EXPECT_LT(bdf2.errors.error, 1e-3);  // measured 4.6e-4
 }
 
@@ -29,13 +30,14 @@ TEST(Accuracy, OfThePendulumImprovesWithTheSquareOfTheStep) {
 
 TEST(Accuracy, OfThreeLinksAfterASecond) {
   for (const char* stepping : {"bdf2", "symmetric"}) {
-    EXPECT_LT(run("three_links", direct(stepping, 50), 1).errors.last, 1e-4) << stepping;
+    EXPECT_LT(runStudy("three_links", directly(stepping, 50), 1).errors.last, 1e-4) << stepping;
   }
 }
 
 TEST(Accuracy, OfADoublePendulumOfBarsOverFiveSeconds) {
   for (const char* stepping : {"bdf2", "symmetric"}) {
-    EXPECT_LT(run("double_pendulum", direct(stepping, 100), 5).errors.error, 1e-3) << stepping;
+    EXPECT_LT(runStudy("double_pendulum", directly(stepping, 100), 5).errors.error, 1e-3)
+        << stepping;
   }
 }
 
@@ -46,14 +48,14 @@ TEST(Accuracy, OfTenLinksWithAHeavyEndAtAnyStep) {
     double error;  // m
   };
   for (const Bar bar : {Bar{3, 2e-2}, Bar{10, 2e-3}, Bar{50, 4e-4}}) {
-    const StudyRun result = run("ten_links_heavy", direct("bdf2", bar.substeps), 1);
+    const StudyRun result = runStudy("ten_links_heavy", directly("bdf2", bar.substeps), 1);
     EXPECT_LT(result.errors.error, bar.error) << bar.substeps;
   }
 }
 
 TEST(Accuracy, OfAHeavyEndGainsNoEnergyByBdf2) {
   for (const int substeps : {3, 10, 50}) {
-    Simulation simulation(studyScene(readStudyCase("ten_links_heavy"), direct("bdf2", substeps)));
+    Simulation simulation(studyScene(readStudyCase("ten_links_heavy"), directly("bdf2", substeps)));
     const double start = simulation.metrics().total, scale = 1000 * 9.81;  // m g L of the end
     for (int k = 0; k < 20; ++k) {
       simulation.advance();
@@ -63,13 +65,13 @@ TEST(Accuracy, OfAHeavyEndGainsNoEnergyByBdf2) {
 }
 
 TEST(Accuracy, SymmetricStepsFallBackWhereTheyWouldBlowUp) {
-  EXPECT_GT(run("ten_links_heavy", direct("symmetric", 10), 1).fallbacks, 0);  // wh = 3.5
-  EXPECT_EQ(run("ten_links_heavy", direct("symmetric", 100), 1).fallbacks, 0);
+  EXPECT_GT(runStudy("ten_links_heavy", directly("symmetric", 10), 1).fallbacks, 0);  // wh = 3.5
+  EXPECT_EQ(runStudy("ten_links_heavy", directly("symmetric", 100), 1).fallbacks, 0);
 }
 
 TEST(Accuracy, OfAFreeTopKeepsMomentumAndEnergy) {  // h = 10 ms
   for (const char* stepping : {"paper", "bdf2", "symmetric"}) {
-    const StudyRun result = run("top_box", direct(stepping, 5), 5);
+    const StudyRun result = runStudy("top_box", directly(stepping, 5), 5);
     EXPECT_LT(result.worst.angularMomentumDrift, 1e-10) << stepping;
     EXPECT_LT(result.worst.energyDrift, 1e-3) << stepping;
   }
@@ -77,7 +79,7 @@ TEST(Accuracy, OfAFreeTopKeepsMomentumAndEnergy) {  // h = 10 ms
 
 TEST(Accuracy, OfALagrangeTopAtAMillisecond) {  // 200 rad/s
   for (const char* stepping : {"bdf2", "symmetric"}) {
-    const StudyRun result = run("lagrange_top", direct(stepping, 50), 2);
+    const StudyRun result = runStudy("lagrange_top", directly(stepping, 50), 2);
     EXPECT_LT(result.errors.error, 0.01 * 0.05) << stepping;  // of the circle's radius
   }
 }
@@ -104,4 +106,4 @@ TEST(Accuracy, OfBallsThatBounceWithoutLossKeepsEveryJoule) {
 }
 
 }  // namespace
-}  // namespace scenes::testing
+}  // namespace scenes

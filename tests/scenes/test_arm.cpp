@@ -96,7 +96,7 @@ TEST(ArmWord, ReportsItsErrorAmongTheMetrics) {
   EXPECT_NEAR(simulation.metrics().errors.at(0).largest, 1.5, 1e-12);
 }
 
-Checker::Verdict verdictOf(const std::string& path, const std::string& metric) {
+Checker::Verdict verdictOnFile(const std::string& path, const std::string& metric) {
   const Scene scene = readScene(libraryFolder() + "/../figures/panels/" + path);
   Simulation simulation(scene);
   Checker checker(scene);
@@ -111,10 +111,10 @@ Checker::Verdict verdictOf(const std::string& path, const std::string& metric) {
 }
 
 TEST(ArmPanels, BendAtTheTipWithMassAndAllOverWithout) {  // NOTES, figure 10
-  EXPECT_NEAR(verdictOf("ik_mass_weighted.toml", "arm_tip_share").value, 0.72, 0.005);
-  EXPECT_NEAR(verdictOf("ik_pseudo_inverse.toml", "arm_tip_share").value, 0.36, 0.005);
-  EXPECT_NEAR(verdictOf("ik_mass_weighted.toml", "arm_effort").value, 0.039, 0.0005);
-  EXPECT_NEAR(verdictOf("ik_pseudo_inverse.toml", "arm_effort").value, 0.413, 0.0005);
+  EXPECT_NEAR(verdictOnFile("ik_mass_weighted.toml", "arm_tip_share").value, 0.72, 0.005);
+  EXPECT_NEAR(verdictOnFile("ik_pseudo_inverse.toml", "arm_tip_share").value, 0.36, 0.005);
+  EXPECT_NEAR(verdictOnFile("ik_mass_weighted.toml", "arm_effort").value, 0.039, 0.0005);
+  EXPECT_NEAR(verdictOnFile("ik_pseudo_inverse.toml", "arm_effort").value, 0.413, 0.0005);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace scenes {
 namespace {
 
-const std::string kBall = "shape = { sphere = { radius = 0.5 } }\nmass = 1\n";
+const std::string kSphere = "shape = { sphere = { radius = 0.5 } }\nmass = 1\n";
 
 Checker::Verdict verdictOf(const std::string& text) {
   const Scene scene = sceneOf(text);
@@ -34,7 +34,7 @@ void expectFailsAtOnce(const std::string& text, const std::string& constraint,
 // x = t.
 std::string flight(const std::string& bound) {
   return "duration = 1\n[simulation]\nfps = 10\n[[body]]\nname = \"p\"\nvelocity = [1, 0, 0]\n" +
-         kBall + "[[expect]]\nmetric = \"x\"\nbody = \"p\"\n" + bound;
+         kSphere + "[[expect]]\nmetric = \"x\"\nbody = \"p\"\n" + bound;
 }
 
 TEST(Culprit, OfABodysMetricIsTheBodyInTheFirstFrameThatFails) {
@@ -59,7 +59,7 @@ TEST(Culprit, IsLookedForInTheSpanOnly) {
 TEST(Culprit, OfAJointErrorIsTheWidestJoint) {
   expectFailsAtOnce(
       "duration = 0.1\n[simulation]\nfps = 10\n[[body]]\nname = \"a\"\nposition = [0, 0, 0]\n" +
-          kBall + "[[body]]\nname = \"b\"\nposition = [3, 0, 0]\n" + kBall +
+          kSphere + "[[body]]\nname = \"b\"\nposition = [3, 0, 0]\n" + kSphere +
           "[[distance]]\nbodies = [\"world\", \"a\"]\nanchors = [[0, 1, 0], [0, 0, 0]]\nlength = "
           "1\n"
           "[[distance]]\nbodies = [\"a\", \"b\"]\nanchors = [[0, 0, 0], [0, 0, 0]]\nlength = 1\n"
@@ -79,8 +79,8 @@ TEST(Culprit, OfAnOverlapIsTheDeepestContact) {
   const auto verdict = verdictOf(
       "duration = 0.1\n[simulation]\nmethod = \"nonlinear_gauss_seidel\"\n"
       "[contact]\nfriction = 0.5\n[[body]]\nname = \"a\"\n" +
-      kBall + "[[body]]\nname = \"b\"\nposition = [0.9, 0, 0]\n" + kBall +
-      "[[body]]\nname = \"c\"\nposition = [1.5, 0, 0]\n" + kBall +
+      kSphere + "[[body]]\nname = \"b\"\nposition = [0.9, 0, 0]\n" + kSphere +
+      "[[body]]\nname = \"c\"\nposition = [1.5, 0, 0]\n" + kSphere +
       "[[expect]]\nmetric = \"overlap\"\nat_most = 0.01\n");
   ASSERT_TRUE(verdict.failure);
   EXPECT_EQ(verdict.failure->constraint, "contact");
@@ -89,8 +89,8 @@ TEST(Culprit, OfAnOverlapIsTheDeepestContact) {
 
 TEST(Culprit, OfASpeedIsTheFastestBody) {
   const auto verdict =
-      verdictOf("duration = 0.1\n[[body]]\nname = \"a\"\nvelocity = [1, 0, 0]\n" + kBall +
-                "[[body]]\nname = \"b\"\nposition = [9, 0, 0]\nvelocity = [0, 5, 0]\n" + kBall +
+      verdictOf("duration = 0.1\n[[body]]\nname = \"a\"\nvelocity = [1, 0, 0]\n" + kSphere +
+                "[[body]]\nname = \"b\"\nposition = [9, 0, 0]\nvelocity = [0, 5, 0]\n" + kSphere +
                 "[[expect]]\nmetric = \"max_speed\"\nat_most = 2\n");
   ASSERT_TRUE(verdict.failure);
   EXPECT_EQ(verdict.failure->bodies, "b");

@@ -5,6 +5,7 @@
 
 #include "scenes/recipe.h"
 #include "scenes/view.h"
+#include "tests/scenes/picture_of.h"
 #include "tests/scenes/scene_text.h"
 
 namespace scenes {
@@ -13,13 +14,6 @@ namespace {
 const std::string kRope = "[[rope]]\nfrom = [0, 2, 0]\nto = [1, 2, 0]\n";
 const std::string kCloth = "[[cloth]]\nsize = [1, 1]\nnodes = [4, 3]\n";
 const std::string kSoft = "[[soft_body]]\nbox = { size = [1, 1, 1], cells = [2, 2, 2] }\n";
-
-render::Picture pictureOf(const std::string& text) {
-  const Simulation simulation(sceneOf(text));
-  MotionBounds bounds;
-  bounds.include(simulation);
-  return view(simulation, bounds, {}, {simulation.metrics()});
-}
 
 TEST(SceneRope, NamesItsNodesAndItsEnd) {
   const Simulation simulation(sceneOf(kRope + "count = 7\n"));

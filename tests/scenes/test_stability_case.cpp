@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kHead = "duration = 1\n[stability]\nfamily = \"chains\"\nabout = \"a\"\n";
+const std::string kCaseHead = "duration = 1\n[stability]\nfamily = \"chains\"\nabout = \"a\"\n";
 const std::string kBody =
     "[[body]]\nname = \"p\"\nshape = { sphere = { radius = 1 } }\nmass = 3\n"
     "velocity = [2, 0, 0]\n";
@@ -24,13 +24,13 @@ const std::string kVariant =
     "[[variant]]\nname = \"fast\"\nset = [\"body.p.velocity=[9,0,0]\"]\n"
     "[[variant.expect]]\nmetric = \"x\"\nbody = \"p\"\nat_least = -1\n";
 
-Scene sceneOf(const std::string& text, const std::vector<std::string>& set = {}) {
+Scene caseSceneOf(const std::string& text, const std::vector<std::string>& set = {}) {
   return parseScene(text, "case.toml", set);
 }
 
-std::string errorOf(const std::string& text, const std::vector<std::string>& set = {}) {
+std::string caseErrorOf(const std::string& text, const std::vector<std::string>& set = {}) {
   try {
-    sceneOf(text, set);
+    caseSceneOf(text, set);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -65,48 +65,50 @@ TEST(StabilityCase, HasTheSettingsOfItsFamily) {
   ASSERT_NE(substeps, nullptr);
   const Value* most = findValue(family.settings, "simulation.max_iterations");
   ASSERT_NE(most, nullptr);
-  const Scene scene = sceneOf(kHead + kBody);
+  const Scene scene = caseSceneOf(kCaseHead + kBody);
   EXPECT_EQ(scene.settings.substeps, substeps->integer);
   EXPECT_EQ(scene.settings.method, physics::Method::kDirect);
   EXPECT_EQ(scene.settings.maxIterations, most->integer);
 }
 
 TEST(StabilityCase, IsOverriddenFromTheCommandLineAllTheSame) {
-  const Scene scene = sceneOf(kHead + kBody, {"simulation.substeps=37", "body.p.mass=5"});
+  const Scene scene = caseSceneOf(kCaseHead + kBody, {"simulation.substeps=37", "body.p.mass=5"});
   EXPECT_EQ(scene.settings.substeps, 37);
   EXPECT_EQ(Simulation(scene).world().bodies().mass[1], 5);
 }
 
 TEST(StabilityCase, MayNotSayHowItIsSolved) {
-  EXPECT_EQ(errorOf(kHead + "[simulation]\nfps = 30\niterations = 9\n" + kBody).substr(0, 61),
-            "case.toml:7:1: simulation.iterations: expected none: how a ca");
-  EXPECT_EQ(errorOf(kHead + "[simulation]\nfps = 30\nseed = 4\n" + kBody), "no error");
-  EXPECT_NE(
-      errorOf(kHead + kBody + "[[variant]]\nname = \"v\"\nset = [\"simulation.substeps=9\"]\n")
-          .find("variant 'v': simulation.substeps: expected none"),
-      std::string::npos);
+  EXPECT_EQ(
+      caseErrorOf(kCaseHead + "[simulation]\nfps = 30\niterations = 9\n" + kBody).substr(0, 61),
+      "case.toml:7:1: simulation.iterations: expected none: how a ca");
+  EXPECT_EQ(caseErrorOf(kCaseHead + "[simulation]\nfps = 30\nseed = 4\n" + kBody), "no error");
+  EXPECT_NE(caseErrorOf(kCaseHead + kBody +
+                        "[[variant]]\nname = \"v\"\nset = [\"simulation.substeps=9\"]\n")
+                .find("variant 'v': simulation.substeps: expected none"),
+            std::string::npos);
 }
 
 TEST(StabilityCase, MaySayTheSettingThatItIsAbout) {
-  const Scene scene = sceneOf(kHead + "about_settings = [\"iterations\"]\n[simulation]\n" +
-                              "iterations = 1\n" + kBody);
+  const Scene scene = caseSceneOf(kCaseHead + "about_settings = [\"iterations\"]\n[simulation]\n" +
+                                  "iterations = 1\n" + kBody);
   EXPECT_EQ(scene.settings.iterations, 1);
   const std::string severity =
       "[severity]\nset = \"simulation.substeps\"\nfrom = 64\nto = 1\nlabel = \"n\"\n";
-  EXPECT_EQ(sceneOf(kHead + severity + "[simulation]\nsubsteps = 7\n" + kBody).settings.substeps,
-            7);
+  EXPECT_EQ(
+      caseSceneOf(kCaseHead + severity + "[simulation]\nsubsteps = 7\n" + kBody).settings.substeps,
+      7);
 }
 
 TEST(StabilityCase, TellsAMistakeAtItsPlace) {
-  EXPECT_EQ(errorOf("[stability]\nfamily = \"chain\"\nabout = \"\"\n" + kBody),
+  EXPECT_EQ(caseErrorOf("[stability]\nfamily = \"chain\"\nabout = \"\"\n" + kBody),
             "case.toml:2:10: stability.family: no family 'chain' in stability_families.toml; did "
             "you mean 'chains'?");
-  EXPECT_EQ(errorOf(kHead + "famly = 1\n" + kBody),
+  EXPECT_EQ(caseErrorOf(kCaseHead + "famly = 1\n" + kBody),
             "case.toml:5:1: stability: unknown key 'famly'; did you mean 'family'?");
-  EXPECT_EQ(errorOf(kSeverity + kBody), "case.toml:1:2: unknown table 'severity'");
-  EXPECT_EQ(errorOf(kHead + kBody + kSeverity + "scale = \"lg\"\n").substr(0, 20),
+  EXPECT_EQ(caseErrorOf(kSeverity + kBody), "case.toml:1:2: unknown table 'severity'");
+  EXPECT_EQ(caseErrorOf(kCaseHead + kBody + kSeverity + "scale = \"lg\"\n").substr(0, 20),
             "case.toml:15:9: seve");
-  EXPECT_EQ(errorOf(kHead + kBody, {"simulation.substeps=0"}),
+  EXPECT_EQ(caseErrorOf(kCaseHead + kBody, {"simulation.substeps=0"}),
             "--set simulation.substeps=0: simulation.substeps: expected an integer in [1, 1000000]"
             ", got 0");
 }
@@ -114,7 +116,7 @@ TEST(StabilityCase, TellsAMistakeAtItsPlace) {
 TEST(StabilityCase, TellsAMistakeInTheSeverityAtItsPlace) {
   const auto error = [](const std::string& text) -> std::string {
     try {
-      casesOf(kHead + kBody + text);
+      casesOf(kCaseHead + kBody + text);
     } catch (const InputError& problem) {
       const std::string what = problem.what();
       return what.substr(what.find(".toml"));
@@ -134,7 +136,7 @@ TEST(StabilityCase, TellsAMistakeInTheSeverityAtItsPlace) {
 }
 
 TEST(StabilityCase, StatesTheLevelThatTheFileSays) {
-  const std::vector<StabilityCase> cases = casesOf(kHead + kBody + kSeverity);
+  const std::vector<StabilityCase> cases = casesOf(kCaseHead + kBody + kSeverity);
   ASSERT_EQ(cases.size(), 1u);
   const StabilitySeverity& severity = cases[0].severity.value();
   EXPECT_EQ(severity.stated, 3);
@@ -156,16 +158,17 @@ TEST(StabilitySeverity, TellsLevelsOfANarrowRangeApart) {
 }
 
 TEST(StabilityCase, OfAVariantHasItsOverridesAndItsOwnExpectations) {
-  const std::vector<StabilityCase> cases = casesOf(kHead + kBody + kExpect + kVariant);
+  const std::vector<StabilityCase> cases = casesOf(kCaseHead + kBody + kExpect + kVariant);
   ASSERT_EQ(cases.size(), 2u);
   EXPECT_EQ(cases[1].name, cases[0].name + ".fast");
-  const Scene scene = sceneOf(kHead + kBody + kExpect + kVariant, {"stability.variant=fast"});
+  const Scene scene =
+      caseSceneOf(kCaseHead + kBody + kExpect + kVariant, {"stability.variant=fast"});
   ASSERT_EQ(scene.expectations.size(), 1u);
   EXPECT_EQ(scene.expectations[0].atLeast, -1);
   EXPECT_EQ(Simulation(scene).world().bodies().velocity[1].v.x(), 9);
-  EXPECT_EQ(errorOf(kHead + kBody + kVariant, {"stability.variant=fats"}),
+  EXPECT_EQ(caseErrorOf(kCaseHead + kBody + kVariant, {"stability.variant=fats"}),
             "--set stability.variant=fats: no such [[variant]]; did you mean 'fast'?");
-  EXPECT_EQ(casesOf(kHead + kBody + kExpect + kVariant, ".fast").size(), 1u);
+  EXPECT_EQ(casesOf(kCaseHead + kBody + kExpect + kVariant, ".fast").size(), 1u);
 }
 
 TEST(StabilityCase, EveryFileOfTheCatalogueIsRead) {

@@ -6,14 +6,14 @@
 namespace scenes {
 namespace {
 
-const std::string kHead = "title = \"t\"\nscene = \"pendulum\"\nduration = 1\nfps = 10\n";
+const std::string kStudyHead = "title = \"t\"\nscene = \"pendulum\"\nduration = 1\nfps = 10\n";
 const std::string kBob = "[[quantity]]\nmetric = \"x\"\nbody = \"bob\"\n";
 const std::string kTable = "[reference]\ntable = \"S01_pendulum_A01.csv\"\n";
 const std::string kSweep = "[sweep]\nmethods = [\"paper\"]\nsubsteps = [1, 2]\n";
 
 StudyCase caseOf(const std::string& text) { return parseStudyCase(text, "case.toml"); }
 
-std::string errorOf(const std::string& text) {
+std::string studyErrorOf(const std::string& text) {
   try {
     caseOf(text);
   } catch (const InputError& error) {
@@ -23,7 +23,7 @@ std::string errorOf(const std::string& text) {
 }
 
 TEST(StudyCase, ReadsWhatIsSweptForEachMethod) {
-  const StudyCase study = caseOf(kHead + kBob +
+  const StudyCase study = caseOf(kStudyHead + kBob +
                                  "[sweep]\nmethods = [\"paper\", \"bdf2\"]\nsubsteps = [1, 4]\n"
                                  "iterations = [3]\n[sweep.bdf2]\nsubsteps = [7]\n");
   EXPECT_EQ(study.grids[0].substeps, (std::vector<int>{1, 4}));
@@ -34,37 +34,39 @@ TEST(StudyCase, ReadsWhatIsSweptForEachMethod) {
 }
 
 TEST(StudyCase, NamesTheNearestKeyForAnUnknownOne) {
-  EXPECT_EQ(errorOf(kHead + kBob + "colum = \"x\"\n" + kSweep),
+  EXPECT_EQ(studyErrorOf(kStudyHead + kBob + "colum = \"x\"\n" + kSweep),
             "case.toml:8:1: quantity: unknown key 'colum'; did you mean 'column'?");
-  EXPECT_EQ(errorOf(kHead + "quik = true\n" + kBob + kSweep),
+  EXPECT_EQ(studyErrorOf(kStudyHead + "quik = true\n" + kBob + kSweep),
             "case.toml:5:1: unknown key 'quik'; did you mean 'quick'?");
 }
 
 TEST(StudyCase, NamesTheNearestMethodMetricBodyAndColumn) {
-  EXPECT_EQ(errorOf(kHead + kBob + "[sweep]\nmethods = [\"papr\"]\n"),
+  EXPECT_EQ(studyErrorOf(kStudyHead + kBob + "[sweep]\nmethods = [\"papr\"]\n"),
             "case.toml:9:11: sweep.methods: no method 'papr'; did you mean 'paper'?");
-  EXPECT_EQ(errorOf(kHead + "[[quantity]]\nmetric = \"orientaton\"\nbody = \"bob\"\n" + kSweep),
-            "case.toml:6:10: quantity.metric: unknown metric 'orientaton'; did you mean "
-            "'orientation'?");
-  EXPECT_EQ(errorOf(kHead + kTable + kBob + "column = \"xx\"\n" + kSweep),
+  EXPECT_EQ(
+      studyErrorOf(kStudyHead + "[[quantity]]\nmetric = \"orientaton\"\nbody = \"bob\"\n" + kSweep),
+      "case.toml:6:10: quantity.metric: unknown metric 'orientaton'; did you mean "
+      "'orientation'?");
+  EXPECT_EQ(studyErrorOf(kStudyHead + kTable + kBob + "column = \"xx\"\n" + kSweep),
             "case.toml:10:10: quantity.column: the reference's table has no column 'xx'; did you "
             "mean 'x'?");
   const std::string error =
-      errorOf(kHead + "[[quantity]]\nmetric = \"x\"\nbody = \"bib\"\n" + kSweep);
+      studyErrorOf(kStudyHead + "[[quantity]]\nmetric = \"x\"\nbody = \"bib\"\n" + kSweep);
   EXPECT_EQ(error.substr(0, 44), "case.toml:7:8: quantity.body: no body 'bib' ") << error;
 }
 
 TEST(StudyCase, AReferenceRunMustBeTenTimesFiner) {
   const std::string self = "[reference]\nself = { substeps = 18 }\n";
-  EXPECT_EQ(errorOf(kHead + self + kBob + kSweep),
+  EXPECT_EQ(studyErrorOf(kStudyHead + self + kBob + kSweep),
             "case.toml:5:1: .reference: self: expected steps * substeps >= 20, 10 times those of "
             "the finest point, got 18");
 }
 
 TEST(StudyCase, VectorsWantAColumnForEachComponent) {
   EXPECT_EQ(
-      errorOf(kHead + kTable +
-              "[[quantity]]\nmetric = \"position\"\nbody = \"bob\"\ncolumns = [\"x\"]\n" + kSweep),
+      studyErrorOf(kStudyHead + kTable +
+                   "[[quantity]]\nmetric = \"position\"\nbody = \"bob\"\ncolumns = [\"x\"]\n" +
+                   kSweep),
       "case.toml:10:11: quantity.columns: expected 3 columns for position, got 1");
 }
 

@@ -10,7 +10,7 @@ namespace scenes {
 namespace {
 
 // Three samples a second for one second, one quantity.
-StudyCase caseOf(const std::string& metric) {
+StudyCase caseMeasuring(const std::string& metric) {
   StudyCase study;
   study.duration = 1;
   study.fps = 3;
@@ -28,7 +28,7 @@ StudyTrace traceOf(QuantitySamples samples) {
 }
 
 TEST(StudyErrors, TheLargestIsTakenOverTheTrustedTime) {
-  StudyCase study = caseOf("max_speed");
+  StudyCase study = caseMeasuring("max_speed");
   study.quantities[0].law = {1, 3};  // 1 + 3 t: 1, 2, 3, 4 at the samples
   const StudyTrace truth = truthOf(study, nullptr);
   const StudyTrace trace = traceOf({{1}, {2.5}, {3}, {9}});
@@ -39,7 +39,7 @@ TEST(StudyErrors, TheLargestIsTakenOverTheTrustedTime) {
 }
 
 TEST(StudyErrors, MeansAreOverSamplesAndBodies) {
-  StudyCase study = caseOf("x");
+  StudyCase study = caseMeasuring("x");
   study.error = StudyCase::Error::kMeanSquare;
   const StudyTrace truth = truthOf(study, nullptr);  // zero
   const StudyTrace trace = traceOf({{0, 0}, {1, 3}, {0, 0}, {1, 1}});
@@ -47,14 +47,14 @@ TEST(StudyErrors, MeansAreOverSamplesAndBodies) {
 }
 
 TEST(StudyErrors, ANumberOverTheRunIsComparedOnce) {
-  StudyCase study = caseOf("max_speed");
+  StudyCase study = caseMeasuring("max_speed");
   study.quantities[0].over = StudyQuantity::Over::kMax;
   study.quantities[0].law = {2};
   EXPECT_DOUBLE_EQ(compare(study, traceOf({{0}, {5}, {1}, {0}}), truthOf(study, nullptr)).error, 3);
 }
 
 TEST(StudyErrors, OppositeQuaternionsAreTheSameOrientation) {
-  StudyCase study = caseOf("orientation");
+  StudyCase study = caseMeasuring("orientation");
   study.quantities[0].body.assign(1, 'b');
   const double a = 0.5e-9;  // half an angle too small for acos
   const QuantitySamples samples(4, {-std::cos(a), -std::sin(a), 0, 0});
@@ -63,7 +63,7 @@ TEST(StudyErrors, OppositeQuaternionsAreTheSameOrientation) {
 }
 
 TEST(StudyErrors, NotANumberIsTheWorst) {
-  const StudyCase study = caseOf("max_speed");
+  const StudyCase study = caseMeasuring("max_speed");
   const StudyTrace trace = traceOf({{0}, {NAN}, {1}, {0}});
   EXPECT_TRUE(std::isnan(compare(study, trace, truthOf(study, nullptr)).error));
 }

@@ -6,19 +6,13 @@
 #include "scenes/camera.h"
 #include "scenes/palette.h"
 #include "scenes/view.h"
+#include "tests/scenes/picture_of.h"
 #include "tests/scenes/scene_text.h"
 
 namespace scenes {
 namespace {
 
 using physics::Vec3;
-
-render::Picture pictureOf(const std::string& text, const ViewOptions& options = {}) {
-  const Simulation simulation(sceneOf(text));
-  MotionBounds bounds;
-  bounds.include(simulation);
-  return view(simulation, bounds, options, {simulation.metrics()});
-}
 
 // The point's place in the picture, -1..1 in both directions.
 Eigen::Vector2d project(const render::Camera& camera, const Vec3& point, double aspect) {

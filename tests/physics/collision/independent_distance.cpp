@@ -81,7 +81,7 @@ Core coreOf(const Shape& shape, const Pose& pose, Prism prism) {
 }
 
 // The furthest point along d; of a cylinder, not of its prism.
-V furthest(const Core& core, const V& d) {
+V support(const Core& core, const V& d) {
   if (core.isCurved) {
     const Real up = d.dot(core.axis);
     const V across = d - up * core.axis;
@@ -147,7 +147,7 @@ struct Nearest {
 };
 
 Nearest nearest(const Core& a, const Core& b, Real size) {
-  std::vector<V> set{furthest(a, V::UnitX()) - furthest(b, V::UnitX())};
+  std::vector<V> set{support(a, V::UnitX()) - support(b, V::UnitX())};
   std::vector<Real> weight{1};
   Nearest result;
   for (int iteration = 0; iteration < 400; ++iteration) {
@@ -156,7 +156,7 @@ Nearest nearest(const Core& a, const Core& b, Real size) {
     const Real length = x.norm();
     result.x = x;
     if (length <= 1e-15L * size) return {x, 0};
-    const V p = furthest(a, -x) - furthest(b, x);
+    const V p = support(a, -x) - support(b, x);
     result.below = std::max(result.below, x.dot(p) / length);
     if (length - result.below <= 1e-17L * size) return result;
     for (const V& q : set) {
@@ -203,7 +203,7 @@ Bounds ofPlane(const Core& a, const Plane& plane, const Pose& pose) {
   q.normalize();
   const Real size = plane.normal.cast<Real>().norm();
   const V n = q.toRotationMatrix() * (plane.normal.cast<Real>() / size);
-  const Real d = n.dot(furthest(a, -n) - pose.x.cast<Real>()) - plane.offset / size - a.radius;
+  const Real d = n.dot(support(a, -n) - pose.x.cast<Real>()) - plane.offset / size - a.radius;
   return {static_cast<double>(d), static_cast<double>(d), n.cast<double>()};
 }
 
