@@ -11,7 +11,7 @@ namespace physics {
 namespace {
 
 // Keeps the factor regular where rows repeat each other (loops): relative to the row's own A.
-constexpr double kRedundancy = 1e-5;
+constexpr double kRedundancy = 1e-7;
 
 constexpr int kMostRounds = 6;  // of finding which rows are at a bound
 
@@ -33,8 +33,7 @@ bool isUnit(JointRow::Part part) {
 void addCoupling(const JointRow& k, int p, const JointRow& l, int q, Mat3& sum) {
   using Part = JointRow::Part;
   if (isUnit(k.linearPart[p]) && isUnit(l.linearPart[q])) {
-    sum.diagonal().array() +=
-        signOf(k.linearPart[p]) * signOf(l.linearPart[q]) * l.inverseMass[q];
+    sum.diagonal().array() += signOf(k.linearPart[p]) * signOf(l.linearPart[q]) * l.inverseMass[q];
   } else if (k.linearPart[p] != Part::kNone && l.linearPart[q] != Part::kNone) {
     sum.noalias() += k.linear[p].lazyProduct(l.responseLinear[q]);
   }
@@ -139,8 +138,7 @@ bool isBounded(const JointRow& row) {
 }
 
 bool givesWay(const JointRow& row) {
-  return row.role != JointRow::Role::kConstraint || !row.alpha.isZero(0) ||
-         row.regularisation > 0;
+  return row.role != JointRow::Role::kConstraint || !row.alpha.isZero(0) || row.regularisation > 0;
 }
 
 Vec3 clamped(const JointRow& row, const Vec3& total) {
@@ -368,7 +366,8 @@ void Articulation::substitute() {
     const int i = pattern.rows[k];
     Vec3 y = inverse_[i].lazyProduct(right_[i]);
     for (int j = pattern.start[k]; j < pattern.start[k + 1]; ++j) {
-      y.noalias() -= scaled_[pattern.below[j][1]].transpose().lazyProduct(right_[pattern.below[j][0]]);
+      y.noalias() -=
+          scaled_[pattern.below[j][1]].transpose().lazyProduct(right_[pattern.below[j][0]]);
     }
     right_[i] = y;
   }
@@ -431,8 +430,8 @@ bool Articulation::holdAtBounds(std::span<Displacement> moved) {
   return any;
 }
 
-// What of the errors at X^t a substep leaves to later ones, where they are taken back no faster than
-// `most` [m, rad] at a time.
+// What of the errors at X^t a substep leaves to later ones, where they are taken back no faster
+// than `most` [m, rad] at a time.
 void Articulation::leave(Kinds& kinds, const Configuration& at, double most) {
   evaluate(kinds, {at.start, at.start, at.dt}, true);
   for (JointRow& row : rows_) {

@@ -3,14 +3,15 @@
 // The unknowns are displacements of a substep, u = h v and theta = h w, in single precision: they
 // lose 1e-7 of a displacement, and poses stay double. Rows are prepared once where contacts are
 // looked for; within the substeps that follow, the gap of a point is
-//   c = gap + n . (dA - dB) + (rA x n) . thA - (rB x n) . thB,   d, th: displaced since then     (91)
+//   c = gap + n . (dA - dB) + (rA x n) . thA - (rB x n) . thB,   d, th: displaced since then (91)
 // A manifold has up to four normal rows, and at their centre two of friction and one of twist.
 //
 // A contact gives way as the spring and damper of (117)-(124), as stiff as the substep resolves:
 //   position   c > 0:  dlambda = -(J u + c) / A
 //              else    dlambda = -(s J u + max(s b c, -push)) / A - (1 - s) lambda
 //   velocity           dlambda = -(J u + max(c, 0)) / A, and friction on the disc of (96)-(101)
-// with the total projected on lambda >= 0. No include but this: it is compiled for several machines.
+// with the total projected on lambda >= 0. No include but this: it is compiled for several
+// machines.
 #pragma once
 
 namespace physics {
@@ -36,11 +37,10 @@ struct Softness {
 struct alignas(32) ContactBlock {
   static constexpr int kLanes = 8, kPoints = 4;
   struct Point {
-    float armA[3][8], armB[3][8];  // from the centres [m]
+    float armA[3][8], armB[3][8];                                  // from the centres [m]
     float torqueA[3][8], torqueB[3][8], turnA[3][8], turnB[3][8];  // r x n, I^-1 (r x n)
     float gap[8], lambda[8], inverse[8];                           // 1/A; 0: no such point
     float lever[8];                                                // from the centre of friction
-    float approach[8];  // J u when the substep began, for restitution
   };
   struct Tangent {
     float d[3][8], torqueA[3][8], torqueB[3][8], turnA[3][8], turnB[3][8], lambda[8];
@@ -51,10 +51,10 @@ struct alignas(32) ContactBlock {
   float massA[8], massB[8], inverse11[8], inverse12[8], inverse22[8];
   float twistA[3][8], twistB[3][8], twistInverse[8], twist[8];
   float staticFriction[8], dynamicFriction[8];
-  float scale[8], rate[8];        // softness
-  float change[8];                // sum of A dlambda^2 in the last velocity sweep
-  int bodyA[8], bodyB[8];         // slots; 0 where nothing moves
-  int contact[8];                 // index of the contact, -1: an empty lane
+  float scale[8], rate[8];  // softness
+  float change[8];          // sum of A dlambda^2 in the last velocity sweep
+  int bodyA[8], bodyB[8];   // slots; 0 where nothing moves
+  int contact[8];           // index of the contact, -1: an empty lane
 };
 
 struct ContactKernels {
@@ -64,9 +64,6 @@ struct ContactKernels {
   void (*warmStart)(ContactBlock* blocks, int count, LaneMotion* motions);
   void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, float push);
   void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions);
-  // Points that pushed and had closed faster than `threshold` [m per substep] open at e times that.
-  void (*bounce)(ContactBlock* blocks, int count, LaneMotion* motions, float restitution,
-                 float threshold);
 };
 
 // Chosen once, by what the processor has.

@@ -105,7 +105,7 @@ inline void prepareFriction(ContactBlock& m, const Lanes3& n, const Inertias& a,
   store(m.twistB, twistB);
   const Lanes twist = dot(n, twistA + twistB);
   store(m.twistInverse, wherePositive(twist, one / larger(twist, tiny), zero));
-  // The last friction, which the host left as a world vector in `lambda` and `approach`.
+  // The last friction, which the host left as a world vector in the `lambda` of both and `change`.
   const Lanes3 last = {load(m.tangent[0].lambda), load(m.tangent[1].lambda), load(m.change)};
   store(m.tangent[0].lambda, dot(last, d1));
   store(m.tangent[1].lambda, dot(last, d2));
@@ -146,9 +146,6 @@ inline void warmStartBlock(ContactBlock& m, LaneMotion* motions) {
   const Lanes3 n = load(m.n);
   const Lanes massA = load(m.massA), massB = load(m.massB);
   Lanes sum = all(0);
-  for (ContactBlock::Point& p : m.point) {
-    store(p.approach, rateAlong(n, load(p.torqueA), load(p.torqueB), a, b));
-  }
   for (ContactBlock::Point& p : m.point) {
     const Lanes lambda = load(p.lambda);
     sum = sum + lambda;
@@ -201,7 +198,7 @@ inline Lanes onDisc(Lanes squared, Lanes staticLimit, Lanes dynamicLimit) {
 
 inline void sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const Lanes3& n, Body& a,
                           Body& b) {
-  const Lanes nuS = load(m.staticFriction), nuD = load(m.dynamicFriction), zero = all(0);
+  const Lanes nuS = load(m.staticFriction), nuD = load(m.dynamicFriction);
   const Lanes twist = load(m.twist);
   const Lanes wanted = twist - load(m.twistInverse) * dot(n, a.theta - b.theta);
   const Lanes kept = wanted * onDisc(wanted * wanted, nuS * turning, nuD * turning);
@@ -221,7 +218,6 @@ inline void sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const La
   store(t2.lambda, w2 * share);
   give(t1, d1, massA, massB, w1 * share - last1, a, b);
   give(t2, d2, massA, massB, w2 * share - last2, a, b);
-  static_cast<void>(zero);
 }
 
 inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions) {
@@ -248,26 +244,6 @@ inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions) {
   scatter(m.bodyB, b, motions);
 }
 
-inline void bounceBlock(ContactBlock& m, LaneMotion* motions, float restitution, float threshold) {
-  Body a, b;
-  gather(m.bodyA, motions, a);
-  gather(m.bodyB, motions, b);
-  const Lanes3 n = load(m.n);
-  const Lanes massA = load(m.massA), massB = load(m.massB), zero = all(0);
-  for (ContactBlock::Point& p : m.point) {
-    const Lanes lambda = load(p.lambda), approach = load(p.approach);
-    const Lanes v = rateAlong(n, load(p.torqueA), load(p.torqueB), a, b);
-    const Lanes total =
-        larger(lambda - load(p.inverse) * (v + all(restitution) * approach), zero);
-    const Lanes fast = wherePositive(all(-threshold) - approach, total, lambda);
-    const Lanes kept = wherePositive(lambda, fast, lambda);
-    store(p.lambda, kept);
-    give(p, n, massA, massB, kept - lambda, a, b);
-  }
-  scatter(m.bodyA, a, motions);
-  scatter(m.bodyB, b, motions);
-}
-
 void prepareAll(ContactBlock* blocks, int count, const LaneMass* masses, float reach) {
   for (int i = 0; i < count; ++i) prepareBlock(blocks[i], masses, reach);
 }
@@ -280,14 +256,9 @@ void sweepPositionsAll(ContactBlock* blocks, int count, LaneMotion* motions, flo
 void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions) {
   for (int i = 0; i < count; ++i) sweepVelocitiesBlock(blocks[i], motions);
 }
-void bounceAll(ContactBlock* blocks, int count, LaneMotion* motions, float restitution,
-               float threshold) {
-  for (int i = 0; i < count; ++i) bounceBlock(blocks[i], motions, restitution, threshold);
-}
 
 }  // namespace
 
-const ContactKernels KERNELS = {prepareAll, warmStartAll, sweepPositionsAll, sweepVelocitiesAll,
-                                bounceAll};
+const ContactKernels KERNELS = {prepareAll, warmStartAll, sweepPositionsAll, sweepVelocitiesAll};
 
 }  // namespace physics

@@ -79,8 +79,8 @@ void keep(std::span<const KeptContact> previous, std::span<const Manifold> found
   for (std::size_t i = 0; i < found.size(); ++i) {
     KeptContact& fresh = now[i];
     take(found[i], bodies, fresh);
-    while (old < previous.size() && (previous[old].a != fresh.a ? previous[old].a < fresh.a
-                                                                : previous[old].b < fresh.b)) {
+    while (old < previous.size() &&
+           (previous[old].a != fresh.a ? previous[old].a < fresh.a : previous[old].b < fresh.b)) {
       ++old;
     }
     if (old == previous.size()) continue;
@@ -113,7 +113,8 @@ ContactPair pairOf(const KeptContact& contact, double step) {
   for (int k = 0; k < contact.count; ++k) {
     pair.points[k].shape = contact.points[k];
     pair.points[k].normalTotal = scale * contact.lambda[k];
-    if (sum > 0) pair.points[k].frictionTotal = scale * contact.lambda[k] / sum * contact.tangential;
+    if (sum > 0)
+      pair.points[k].frictionTotal = scale * contact.lambda[k] / sum * contact.tangential;
   }
   return pair;
 }

@@ -26,7 +26,8 @@ struct KeptContact {
   std::array<ContactPoint, Manifold::kMaxPoints> points;
 };
 
-// What the collider found, with the multipliers of the points that go on. Both are sorted by (a, b).
+// What the collider found, with the multipliers of the points that go on. Both are sorted by (a,
+// b).
 void keep(std::span<const KeptContact> previous, std::span<const Manifold> found,
           const Bodies& bodies, std::vector<KeptContact>& now);
 

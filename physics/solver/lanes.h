@@ -1,6 +1,6 @@
-// Eight single precision numbers at a time: one AVX2 register, or two SSE2 halves. Every operation is
-// rounded as IEEE says, lane by lane, so that both give the same bytes: no fused multiply-add, no
-// approximate reciprocal. Included by the kernels alone, which are compiled once for each.
+// Eight single precision numbers at a time: one AVX2 register, or two SSE2 halves. Every operation
+// is rounded as IEEE says, lane by lane, so that both give the same bytes: no fused multiply-add,
+// no approximate reciprocal. Included by the kernels alone, which are compiled once for each.
 #pragma once
 
 #include <immintrin.h>
@@ -80,9 +80,7 @@ inline __m128 wherePositive(__m128 test, __m128 a, __m128 b) {
 inline Lanes wherePositive(Lanes test, Lanes a, Lanes b) {
   return {wherePositive(test.low, a.low, b.low), wherePositive(test.high, a.high, b.high)};
 }
-inline void transpose(__m128& a, __m128& b, __m128& c, __m128& d) {
-  _MM_TRANSPOSE4_PS(a, b, c, d);
-}
+inline void transpose(__m128& a, __m128& b, __m128& c, __m128& d) { _MM_TRANSPOSE4_PS(a, b, c, d); }
 inline void transpose(Lanes* r) {
   for (int i = 0; i < 8; i += 4) {
     transpose(r[i].low, r[i + 1].low, r[i + 2].low, r[i + 3].low);

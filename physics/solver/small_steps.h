@@ -6,10 +6,10 @@
 //   positions    joints as one block, contacts once (soft, as stiff as h resolves), joints again
 //   displace     X <- X + u
 //   velocities   the same rows with no error to take back: joints, contacts and friction, joints
-// From v0 the velocities change the kinetic energy by f(lambda) = lambda^T J v0 + lambda^T A lambda/2,
-// which projected Gauss-Seidel goes down on: what moves a body without being motion, the taking back
-// of overlaps and gaps, does not become speed.
-// An island of one body that nothing holds flies on, exactly.
+// From v0 the velocities change the kinetic energy by f(lambda) = lambda^T J v0 + lambda^T A
+// lambda/2, which projected Gauss-Seidel goes down on: what moves a body without being motion, the
+// taking back of overlaps and gaps, does not become speed. An island of one body that nothing holds
+// flies on, exactly.
 #pragma once
 
 #include <memory>
@@ -34,7 +34,7 @@ class SmallSteps {
   const std::vector<KeptContact>& contacts() const;
   std::vector<KeptContact> sleeping;  // contacts of bodies that sleep; sorted
   int substepsOf(BodyId body) const;  // in the last step
-  void forget();  // multipliers and contacts: the state came from elsewhere
+  void forget();                      // multipliers and contacts: the state came from elsewhere
   void topologyChanged();
   std::size_t bytes() const;
 
@@ -45,7 +45,8 @@ class SmallSteps {
   std::unique_ptr<Impl> impl_;
 };
 
-// True where every kind that the world has is solved by small steps.
+// True where all that the world has is solved by small steps. Not yet: cloth, soft bodies and ropes
+// of points, restitution, other steppings. These the non-linear sweep takes.
 bool takesSmallSteps(const World::Impl& world);
 
 }  // namespace physics

@@ -1,0 +1,190 @@
+// The default method: what holds without a word about methods.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "physics/make/chain.h"
+#include "physics/solver/contact_block.h"
+#include "physics/world.h"
+#include "tests/physics/stage.h"
+
+namespace physics::testing {
+namespace {
+
+Settings byDefault() {
+  Settings settings;
+  settings.gravity = Vec3(0, -9.81, 0);
+  settings.contact = ContactSettings{};
+  return settings;
+}
+
+double energyOf(const World& world) {
+  const Bodies& b = world.bodies();
+  double energy = 0;
+  for (BodyId i = 1; i < b.size(); ++i) {
+    const Vec3 w = b.pose[i].q.conjugate() * b.velocity[i].w;
+    energy += 0.5 * b.mass[i] * b.velocity[i].v.squaredNorm() +
+              0.5 * w.dot(b.inertia[i].cwiseProduct(w)) + 9.81 * b.mass[i] * b.pose[i].x.y();
+  }
+  return energy;
+}
+
+void expectSameBytes(const World& p, BodyId i, const World& q, BodyId j) {
+  const Pose &a = p.bodies().pose[i], &b = q.bodies().pose[j];
+  EXPECT_EQ(std::memcmp(a.x.data(), b.x.data(), 3 * sizeof(double)), 0);
+  EXPECT_EQ(std::memcmp(a.q.coeffs().data(), b.q.coeffs().data(), 4 * sizeof(double)), 0);
+}
+
+TEST(SmallSteps, HoldAWeightOfAThousandOnOne) {
+  World world(byDefault());
+  addGround(world);
+  addBody(world, Box{Vec3(1, 1, 1)}, Vec3(0, 0.5, 0), 1);
+  const BodyId heavy = addBody(world, Box{Vec3(1, 1, 1)}, Vec3(0, 1.5, 0), 1000);
+  run(world, 300);
+  EXPECT_NEAR(world.bodies().pose[heavy].x.y(), 1.5, 1e-3);  // measured 3e-4
+}
+
+TEST(SmallSteps, KeepATowerOfThirtyBoxesUpright) {
+  World world(byDefault());
+  addGround(world);
+  const BodyId first = addStack(world, 30);
+  run(world, 300);
+  const Vec3 top = world.bodies().pose[first + 29].x;
+  EXPECT_NEAR(top.y(), 29.5, 0.01);
+  EXPECT_LT(std::hypot(top.x(), top.z()), 0.01);
+}
+
+// Masses far apart neither open joints nor give energy.
+class HeavyEnd : public ::testing::TestWithParam<double> {};
+TEST_P(HeavyEnd, KeepsTheChainClosedAndItsEnergyBounded) {
+  Settings settings = byDefault();
+  settings.contact.reset();
+  World world(settings);
+  BodyId last = kWorldBody;
+  for (int k = 0; k < 20; ++k) {
+    BodyDef def;
+    def.shape = Box{Vec3(0.5, 0.08, 0.08)};
+    def.mass = k == 19 ? GetParam() : 1;
+    def.pose.x = Vec3(0.25 + 0.5 * k, 0, 0);
+    const BodyId id = world.add(def);
+    BallSocketDef joint;
+    joint.bodies = {last, id};
+    joint.at = Vec3(0.5 * k, 0, 0);
+    world.add(joint);
+    last = id;
+  }
+  const double before = energyOf(world);
+  double gap = 0, most = before;
+  for (int k = 0; k < 600; ++k) {
+    world.step();
+    gap = std::max(gap, world.constraintErrors().front().largest);
+    most = std::max(most, energyOf(world));
+  }
+  EXPECT_LT(gap, 1e-5);  // measured 5e-6 m and less
+  EXPECT_LE(most, before + 1e-9 * GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(MassRatios, HeavyEnd, ::testing::Values(1, 100, 250, 300, 1000, 1e4));
+
+// What happens in one island cannot change a byte in another.
+TEST(SmallSteps, IslandsDoNotKnowOfEachOther) {
+  const auto build = [](World& world, bool withNeighbour) {
+    addGround(world);
+    const BodyId first = addStack(world, 6);
+    if (withNeighbour) {
+      addStack(world, 9, 30);
+      addBody(world, Sphere{0.5}, Vec3(60, 0.5, 0), 100);
+    }
+    return first;
+  };
+  World alone(byDefault()), accompanied(byDefault());
+  const BodyId i = build(alone, false), j = build(accompanied, true);
+  run(alone, 120);
+  run(accompanied, 120);
+  for (int k = 0; k < 6; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
+}
+
+TEST(SmallSteps, AFreeBodyFliesAlongTheParabola) {
+  World world(byDefault());
+  BodyDef def;
+  def.shape = Box{Vec3(1, 2, 3)};
+  def.velocity.v = Vec3(1, 2, 3);
+  const BodyId body = world.add(def);
+  run(world, 60);
+  const Vec3 expected = Vec3(1, 2, 3) + 0.5 * Vec3(0, -9.81, 0);
+  EXPECT_LT((world.bodies().pose[body].x - expected).norm(), 1e-12);
+}
+
+// Displacements are single precision, poses are not: a place does not matter.
+TEST(SmallSteps, AMillionMetresAwayAStackStandsAsWell) {
+  World world(byDefault());
+  addGround(world);
+  BodyId first = addStack(world, 5, 1e6);
+  run(world, 300);
+  for (int k = 0; k < 5; ++k) {
+    const Vec3 x = world.bodies().pose[first + k].x;
+    EXPECT_NEAR(x.x() - 1e6, 0, 1e-3);
+    EXPECT_NEAR(x.y(), k + 0.5, 1e-3);
+  }
+}
+
+TEST(SmallSteps, AtAHitMomentumIsKept) {
+  Settings settings = byDefault();
+  settings.gravity.reset();
+  World world(settings);
+  const BodyId a = addBody(world, Box{Vec3(1, 1, 1)}, Vec3(0, 0, 0), 2);
+  const BodyId b = addBody(world, Box{Vec3(1, 1, 1)}, Vec3(1.5, 0.3, 0.1), 3);
+  world.setVelocity(a, {Vec3(10, 0, 0), Vec3::Zero()});
+  run(world, 60);
+  const auto& v = world.bodies().velocity;
+  EXPECT_GT(v[b].v.x(), 1);
+  EXPECT_LT((2 * v[a].v + 3 * v[b].v - Vec3(20, 0, 0)).norm(), 1e-5);  // float: 1e-7 of 20
+}
+
+// The same bytes from either set of registers.
+TEST(ContactKernels, GiveTheSameBytesInHalvesAndInOne) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2 here";
+  ContactBlock start{};
+  LaneMass masses[17]{};
+  LaneMotion motions[17]{};
+  unsigned seed = 1;
+  const auto next = [&] {
+    return static_cast<float>((seed = seed * 1103515245u + 12345u) >> 9) / 8388608.f - 0.5f;
+  };
+  for (int s = 1; s < 17; ++s) {
+    masses[s].inverse = 1 + next();
+    for (int k = 0; k < 3; ++k)
+      masses[s].inertia[k] = 2 + next(), masses[s].inertia[k + 3] = 0.2f * next();
+    for (int k = 0; k < 3; ++k)
+      motions[s].u[k] = 0.01f * next(), motions[s].theta[k] = 0.01f * next();
+  }
+  for (int l = 0; l < 8; ++l) {
+    start.bodyA[l] = 1 + 2 * l;
+    start.bodyB[l] = l == 3 ? 0 : 2 + 2 * l;
+    const Vec3 n = Vec3(next(), next(), next()).normalized();
+    for (int k = 0; k < 3; ++k) start.n[k][l] = static_cast<float>(n[k]);
+    start.scale[l] = 0.9f, start.rate[l] = 0.2f;
+    start.staticFriction[l] = 0.6f, start.dynamicFriction[l] = 0.5f;
+    for (auto& p : start.point) {
+      for (int k = 0; k < 3; ++k) p.armA[k][l] = next(), p.armB[k][l] = next();
+      p.gap[l] = 0.01f * next(), p.lambda[l] = 0.01f * (0.5f + next()), p.inverse[l] = 1;
+    }
+  }
+  const auto work = [&](const ContactKernels& kernels, ContactBlock& block,
+                        LaneMotion(&moved)[17]) {
+    kernels.prepare(&block, 1, masses, 0.02f);
+    kernels.warmStart(&block, 1, moved);
+    kernels.sweepPositions(&block, 1, moved, 0.01f);
+    for (int k = 0; k < 3; ++k) kernels.sweepVelocities(&block, 1, moved);
+  };
+  ContactBlock narrow = start, wide = start;
+  LaneMotion byHalves[17], byOne[17];
+  std::memcpy(byHalves, motions, sizeof motions);
+  std::memcpy(byOne, motions, sizeof motions);
+  work(kContactKernelsSse2, narrow, byHalves);
+  work(kContactKernelsAvx2, wide, byOne);
+  EXPECT_EQ(std::memcmp(&narrow, &wide, sizeof narrow), 0);
+  EXPECT_EQ(std::memcmp(byHalves, byOne, sizeof byOne), 0);
+}
+
+}  // namespace
+}  // namespace physics::testing
