@@ -172,9 +172,10 @@ void fillSpeculative(const Survey& s, Effect& e) {
 void fillDirect(const Survey& s, Effect& e) {
   std::int64_t equalities = 0;
   for (const auto& [kind, made] : s.kinds) equalities += made.equalities;
-  const bool asked = s.scene.settings.method == Method::kDirect;
+  const Method chosen = s.scene.settings.method;
+  const bool asked = chosen == Method::kDirect;
   e.leftOut = asked && equalities == 0;
-  e.on = asked && !e.leftOut;
+  e.on = (asked || chosen == Method::kSmallSteps) && equalities > 0;
   const std::string method = fmt::format("method = \"{}\"", wordOf(s.scene.settings.method));
   e.why =
       e.leftOut ? "no joint to solve directly" : or_(s.place("simulation.method"), method.c_str());

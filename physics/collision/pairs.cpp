@@ -41,8 +41,9 @@ Bounds path(const Item& item) {
 }
 
 // Room for more steps like this one, and for a little more in all directions.
-Bounds fattened(const Solid& solid, const Bounds& swept, const Vec3& move, double margin) {
-  const Bounds ahead{swept.low + kAhead * move, swept.high + kAhead * move};
+Bounds fattened(const Solid& solid, const Bounds& swept, const Vec3& move, double margin,
+                double steps = kAhead) {
+  const Bounds ahead{swept.low + steps * move, swept.high + steps * move};
   return grown(joined(swept, ahead), margin + kSlack * solid.size);
 }
 
@@ -182,6 +183,8 @@ bool Pairs::takeMotion(Item& item, const Pose& from, const Pose& to) {
   item.R = R;
   item.x = from.x;
   item.move = to.x - from.x;
+  item.from = from;
+  item.to = to;
   item.turn = item.solid.coreRadius * 2 * (from.q.conjugate() * to.q).vec().norm();
   return planeMoved;
 }
@@ -244,7 +247,11 @@ bool Pairs::outdated(std::span<const Pose> start, std::span<const Pose> end,
   for (const BodyId body : bodies) {
     const int i = indexOf(body);
     if (i < 0 || items_[i].solid.kind == Kind::plane) continue;
-    if (!within(swept(items_[i].solid, start[body], end[body]), fat_[i])) return true;
+    // Pairs are found within fat_, but what is told of them is of the motion that find() was given.
+    const Item& item = items_[i];
+    const Bounds told =
+        fattened(item.solid, swept(item.solid, item.from, item.to), item.move, margin_, 1);
+    if (!within(swept(item.solid, start[body], end[body]), told)) return true;
   }
   return false;
 }

@@ -21,6 +21,7 @@ struct Item {
   Vec3 move = Vec3::Zero();
   Vec3 x = Vec3::Zero();  // at the start
   Mat3 R = Mat3::Identity();
+  Pose from, to;          // the motion that find() was given
   Solid solid;  // last: what is before it is read for each pair
 };
 

@@ -509,6 +509,10 @@ void Articulation::solveVelocities(std::span<const JointMass> masses,
   apply(moved);
 }
 
+void Articulation::forget() {
+  for (JointRow& row : rows_) row.lambda.setZero();
+}
+
 void Articulation::finish(Kinds& kinds, double dt) const {
   for (const JointRow& row : rows_) {
     withKind(kinds, row.kind, [&](auto& kind) {

@@ -76,6 +76,8 @@ class Articulation {
   // Evaluates at the end of the substep; then, as often as contacts are swept:
   void prepareVelocities(Kinds& kinds, const Configuration& at, std::span<const JointMass> masses);
   void solveVelocities(std::span<const JointMass> masses, std::span<Displacement> moved);
+  // What it pulled with in the last substep.
+  void forget();
   // Writes the multipliers back to the kinds' sets.
   void finish(Kinds& kinds, double dt) const;
 

@@ -93,7 +93,7 @@ struct SmallSteps::Impl {
   void ask(World::Impl& w, Batch& batch, double h);
   void fly(World::Impl& w, double dt);
   void advance(World::Impl& w, StepReport& report);
-  double carried() const;
+  void learnLoads(World::Impl& w);
   bool fresh = true;  // nothing has stepped yet, or the state came from elsewhere
   void rows(World::Impl& w, Batch& batch, double h);
   std::vector<BodyId> free;
@@ -295,6 +295,7 @@ void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
   constexpr int kColours = 64;
   const Bodies& b = w.bodies;
   batch.slots.assign(1, kWorldBody);
+  if (batch.contacts.empty()) return;
   for (const BodyId i : batch.bodies) {
     slotOf[i] = static_cast<int>(batch.slots.size());
     batch.slots.push_back(i);
@@ -739,37 +740,28 @@ void SmallSteps::Impl::advance(World::Impl& w, StepReport& report) {
   }
 }
 
-// The sum of all normal multipliers, as forces.
-double SmallSteps::Impl::carried() const {
-  double sum = 0;
-  for (const KeptContact& c : contacts) {
-    for (int k = 0; k < c.count && c.step > 0; ++k) sum += c.lambda[k] / (c.step * c.step);
+// Where nothing is known of what contacts carry, steps are trials for the one that counts, as many
+// as the load needs to find its way down. Always as many: no island is to know of another.
+void SmallSteps::Impl::learnLoads(World::Impl& w) {
+  constexpr int kTrials = 16;
+  const Bodies& b = w.bodies;
+  fresh = false;
+  const std::vector<Pose> pose = b.pose;
+  const std::vector<Velocity> velocity = b.velocity;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    StepReport unused;
+    advance(w, unused);
+    w.bodies.pose = pose;
+    w.bodies.velocity = velocity;
+    for (Articulation& articulation : articulations) articulation.forget();
+    if (contacts.empty() || unused.notFinite) return;
   }
-  return sum;
 }
 
-// Where nothing is known of what contacts carry, steps are trials for the one that counts, until
-// the load has found its way down.
 void SmallSteps::step(World::Impl& w, StepReport& report) {
-  constexpr int kMostTrials = 16;
-  double before = 0;
-  Impl& s = *impl_;
-  s.learn(w);
-  for (int trial = 0; s.fresh && trial < kMostTrials; ++trial) {
-    StepReport unused;
-    s.advance(w, unused);
-    const double load = s.carried();
-    bool enough = !unused.notFinite && std::abs(load - before) <= 0.01 * load;
-    before = load;
-    for (const BodyId i : w.bodies.active) {
-      enough = enough && s.asked[i] <= s.substeps[i];
-      w.bodies.pose[i] = w.last.pose[i];
-      w.bodies.velocity[i] = w.last.velocity[i];
-    }
-    if (s.contacts.empty() || enough) break;
-  }
-  s.fresh = false;
-  s.advance(w, report);
+  impl_->learn(w);
+  if (impl_->fresh && w.touches) impl_->learnLoads(w);
+  impl_->advance(w, report);
 }
 
 }  // namespace physics

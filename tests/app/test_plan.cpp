@@ -58,7 +58,7 @@ TEST(Plan, ChainHasNoWorkOfContact) {
 
 TEST(Plan, StepsTellWhatTheyTurnTo) {
   for (const char* word : {"motion", "inertia", "direct", "ball_socket", "schemes"}) {
-    EXPECT_TRUE(heard("chain").contains(word)) << word;
+    EXPECT_TRUE(heard("heavy_chain").contains(word)) << word;
   }
   for (const char* word : {"broad_phase", "narrow_phase", "contact"}) {
     EXPECT_TRUE(heard("stack").contains(word)) << word;

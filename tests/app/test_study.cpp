@@ -133,8 +133,10 @@ TEST_F(Study, AMistakeInACaseIsToldAtItsPlace) {
 
 TEST_F(Study, AChoiceIsMeasuredWithAndWithoutIt) {
   writeText(folder / "choice.toml",
-            "title = \"Gravity\"\n[with]\nlabel = \"10\"\n[without]\nlabel = \"20\"\n"
-            "set = [\"gravity.acceleration=[0,-20,0]\"]\n[[trial]]\ncase = \"./stone.toml\"\n"
+            "title = \"Gravity\"\n[with]\nlabel = \"10\"\n"
+            "set = [\"simulation.method=nonlinear_gauss_seidel\"]\n[without]\nlabel = \"20\"\n"
+            "set = [\"simulation.method=nonlinear_gauss_seidel\", "
+            "\"gravity.acceleration=[0,-20,0]\"]\n[[trial]]\ncase = \"./stone.toml\"\n"
             "substeps = 2\n");
   const Outcome outcome = run("study options ./choice.toml -o o --progress none");
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
