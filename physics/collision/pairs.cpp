@@ -224,6 +224,7 @@ void Pairs::takeBounds(int i, double margin, bool all) {
 void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin) {
   require(start.size() == end.size() && start.size() >= indexOf_.size(),
           "collider: start and end must hold a pose for each body");
+  for (const int t : movedTree_) moved_[itemOfTree_[t]] = false;  // of the last time
   movedTree_.clear();
   if (takeMotions(start, end, margin > margin_)) {
     for (int i = 0; i < static_cast<int>(items_.size()); ++i) takeBounds(i, margin, true);

@@ -65,8 +65,8 @@ struct SmallSteps::Impl {
   std::vector<Batch> batches;
   std::size_t batchCount = 0;
   Islands islands;
-  std::vector<int> batchOf, slotOf;    // by body
-  std::vector<std::uint64_t> colours;  // by body
+  std::vector<int> batchOf, slotOf;                  // by body
+  std::vector<std::uint64_t> colours, coloursFixed;  // by body: taken by its contacts
   std::vector<std::vector<int>> byColour;
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;
@@ -148,6 +148,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   batchOf.resize(bodies);
   slotOf.resize(bodies);
   colours.resize(bodies);
+  coloursFixed.resize(bodies);
   masses.resize(bodies);
   moved.resize(bodies);
   lanesBefore.resize(bodies);
@@ -290,45 +291,43 @@ void SmallSteps::Impl::divide(World::Impl& w) {
   }
 }
 
-// Contacts of one colour share no body that moves; the last list is for those that found none.
+// Contacts of one colour share no body that moves. First those of two bodies that move, then those
+// with what does not, so that a sweep ends with nothing driven into a wall. A body with more
+// contacts than there are colours has the others one by one.
 void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
-  constexpr int kColours = 64;
+  constexpr int kColours = 64, kLists = 2 * kColours;
   const Bodies& b = w.bodies;
   batch.slots.assign(1, kWorldBody);
   if (batch.contacts.empty()) return;
   for (const BodyId i : batch.bodies) {
     slotOf[i] = static_cast<int>(batch.slots.size());
     batch.slots.push_back(i);
-    colours[i] = 0;
+    colours[i] = coloursFixed[i] = 0;
   }
   batch.motions.assign(batch.slots.size(), LaneMotion{});
   batch.masses.assign(batch.slots.size(), LaneMass{});
-  byColour.resize(kColours);
+  byColour.resize(kLists);
   for (auto& list : byColour) list.clear();
-  std::size_t blocks = 0;
   for (const int k : batch.contacts) {
     const KeptContact& c = contacts[k];
     const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0;
-    const std::uint64_t used = (movesA ? colours[c.a] : 0) | (movesB ? colours[c.b] : 0);
+    auto& used = movesA && movesB ? colours : coloursFixed;
+    const std::uint64_t taken = (movesA ? used[c.a] : 0) | (movesB ? used[c.b] : 0);
     int colour = kColours - 1;
-    if (~used != 0) colour = std::min(__builtin_ctzll(~used), kColours - 1);
-    if (movesA) colours[c.a] |= std::uint64_t{1} << colour;
-    if (movesB) colours[c.b] |= std::uint64_t{1} << colour;
-    byColour[colour].push_back(k);
+    if (~taken != 0) colour = std::min(__builtin_ctzll(~taken), kColours - 1);
+    if (movesA) used[c.a] |= std::uint64_t{1} << colour;
+    if (movesB) used[c.b] |= std::uint64_t{1} << colour;
+    byColour[colour + (movesA && movesB ? 0 : kColours)].push_back(k);
   }
-  for (int colour = 0; colour < kColours; ++colour) {
-    const std::size_t width = colour + 1 < kColours ? ContactBlock::kLanes : 1;
-    blocks += (byColour[colour].size() + width - 1) / width;
-  }
-  batch.blocks.resize(blocks);
-  blocks = 0;
-  for (int colour = 0; colour < kColours; ++colour) {
-    const std::size_t width = colour + 1 < kColours ? ContactBlock::kLanes : 1;
-    for (std::size_t i = 0; i < byColour[colour].size(); i += width) {
-      ContactBlock& block = batch.blocks[blocks++];
-      for (std::size_t l = 0; l < 8; ++l) {
-        const bool exists = l < width && i + l < byColour[colour].size();
-        block.contact[l] = exists ? byColour[colour][i + l] : -1;
+  batch.blocks.clear();
+  for (int list = 0; list < kLists; ++list) {
+    const bool oneByOne = list % kColours == kColours - 1;
+    const std::size_t width = oneByOne ? 1 : ContactBlock::kLanes;
+    for (std::size_t i = 0; i < byColour[list].size(); i += width) {
+      ContactBlock& block = batch.blocks.emplace_back();
+      for (std::size_t l = 0; l < ContactBlock::kLanes; ++l) {
+        const bool exists = l < width && i + l < byColour[list].size();
+        block.contact[l] = exists ? byColour[list][i + l] : -1;
       }
     }
   }

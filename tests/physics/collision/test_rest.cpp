@@ -168,5 +168,22 @@ TEST_P(Rest, KeepsItsFeaturesUnderAJiggle) {
   }
 }
 
+// Its bounds were taken with all others at first; they are not of those that move now.
+TEST(ColliderRest, OneThatComesToAnotherThatRestsIsFoundWhicheverWasAddedFirst) {
+  for (const BodyId still : {1, 2}) {
+    const BodyId comes = 3 - still;
+    Collider collider;
+    for (const BodyId body : {1, 2}) collider.add(body, Box{Vec3(1, 1, 1)}, body == comes);
+    std::vector<Pose> pose(3);
+    collider.rest(std::array{still}, pose);
+    bool found = false;
+    for (int k = 0; k < 100; ++k) {
+      pose[comes].x = Vec3(0, 10 - 0.09 * k, 0);
+      found = !collider.find(pose, pose, 0.02).empty();
+    }
+    EXPECT_TRUE(found) << "still " << still;
+  }
+}
+
 }  // namespace
 }  // namespace physics
