@@ -178,7 +178,7 @@ TEST(ColliderRest, OneThatComesToAnotherThatRestsIsFoundWhicheverWasAddedFirst) 
     collider.rest(std::array{still}, pose);
     bool found = false;
     for (int k = 0; k < 100; ++k) {
-      pose[comes].x = Vec3(0, 10 - 0.09 * k, 0);
+      pose[comes].x = Vec3(0, 10 - 0.0909 * k, 0);
       found = !collider.find(pose, pose, 0.02).empty();
     }
     EXPECT_TRUE(found) << "still " << still;
