@@ -40,7 +40,8 @@ struct alignas(32) ContactBlock {
     float armA[3][8], armB[3][8];                                  // from the centres [m]
     float torqueA[3][8], torqueB[3][8], turnA[3][8], turnB[3][8];  // r x n, I^-1 (r x n)
     float gap[8], lambda[8], inverse[8];                           // 1/A; 0: no such point
-    float lever[8];                                                // from the centre of friction
+    float open[8];   // max(c, 0), of the substep's end
+    float lever[8];  // from the centre of friction
   };
   struct Tangent {
     float d[3][8], torqueA[3][8], torqueB[3][8], turnA[3][8], turnB[3][8], lambda[8];
@@ -63,6 +64,8 @@ struct ContactKernels {
   void (*prepare)(ContactBlock* blocks, int count, const LaneMass* masses, float reach);
   void (*warmStart)(ContactBlock* blocks, int count, LaneMotion* motions);
   void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, float push);
+  // Before the velocity sweeps of a substep: how far points are open.
+  void (*measure)(ContactBlock* blocks, int count, const LaneMotion* motions);
   void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions);
 };
 

@@ -220,17 +220,26 @@ inline void sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const La
   give(t2, d2, massA, massB, w2 * share - last2, a, b);
 }
 
-inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions) {
+// How far each point is open where the substep has moved the bodies to.
+inline void measureBlock(ContactBlock& m, const LaneMotion* motions) {
   Body a, b;
   gatherAll(m.bodyA, motions, a);
   gatherAll(m.bodyB, motions, b);
+  const Lanes3 n = load(m.n);
+  for (ContactBlock::Point& p : m.point) store(p.open, larger(gapOf(p, n, a, b), all(0)));
+}
+
+inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions) {
+  Body a, b;
+  gather(m.bodyA, motions, a);
+  gather(m.bodyB, motions, b);
   const Lanes3 n = load(m.n);
   const Lanes massA = load(m.massA), massB = load(m.massB), zero = all(0);
   Lanes normal = zero, turning = zero, change = zero;
   for (ContactBlock::Point& p : m.point) {
     const Lanes lambda = load(p.lambda), inverse = load(p.inverse);
     const Lanes v = rateAlong(n, load(p.torqueA), load(p.torqueB), a, b);
-    const Lanes total = larger(lambda - inverse * (v + larger(gapOf(p, n, a, b), zero)), zero);
+    const Lanes total = larger(lambda - inverse * (v + load(p.open)), zero);
     const Lanes delta = total - lambda;
     store(p.lambda, total);
     give(p, n, massA, massB, delta, a, b);
@@ -253,12 +262,16 @@ void warmStartAll(ContactBlock* blocks, int count, LaneMotion* motions) {
 void sweepPositionsAll(ContactBlock* blocks, int count, LaneMotion* motions, float push) {
   for (int i = 0; i < count; ++i) sweepPositionsBlock(blocks[i], motions, push);
 }
+void measureAll(ContactBlock* blocks, int count, const LaneMotion* motions) {
+  for (int i = 0; i < count; ++i) measureBlock(blocks[i], motions);
+}
 void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions) {
   for (int i = 0; i < count; ++i) sweepVelocitiesBlock(blocks[i], motions);
 }
 
 }  // namespace
 
-const ContactKernels KERNELS = {prepareAll, warmStartAll, sweepPositionsAll, sweepVelocitiesAll};
+const ContactKernels KERNELS = {prepareAll, warmStartAll, sweepPositionsAll, measureAll,
+                                sweepVelocitiesAll};
 
 }  // namespace physics

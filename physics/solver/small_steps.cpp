@@ -77,7 +77,7 @@ struct SmallSteps::Impl {
   void learn(World::Impl& w);
   void makeRoom(std::size_t bodies);
   bool look(World::Impl& w, double dt);
-  double fastest(const World::Impl& w, double dt) const;
+  bool closesBy(const World::Impl& w, double dt, double far);
   void divide(World::Impl& w);
   Batch& batchFor(int substeps, int sweeps);
   void layOut(World::Impl& w, Batch& batch);
@@ -217,20 +217,26 @@ bool SmallSteps::Impl::look(World::Impl& w, double dt) {
   return true;
 }
 
-// How far two bodies of a contact come closer in dt, at the most [m].
-double SmallSteps::Impl::fastest(const World::Impl& w, double dt) const {
-  double most = 0;
+// True where two bodies of a contact come closer in dt by more than `far` [m].
+bool SmallSteps::Impl::closesBy(const World::Impl& w, double dt, double far) {
+  const Bodies& b = w.bodies;
+  const auto speed = [&](BodyId i) {  // of any point of it, at the most
+    if (!isMovable(b, i)) return 0.0;
+    return b.velocity[i].v.norm() + boundingRadius(b.shape[i]) * b.velocity[i].w.norm();
+  };
+  for (const BodyId i : b.active) load[i] = speed(i);
+  const auto known = [&](BodyId i) { return isMovable(b, i) ? load[i] : 0.0; };
   for (const KeptContact& c : contacts) {
-    const Velocity &a = w.bodies.velocity[c.a], &b = w.bodies.velocity[c.b];
-    const Vec3 n = normalOf(c, w.bodies.pose);
+    if (dt * (known(c.a) + known(c.b)) <= far) continue;
+    const Velocity &va = b.velocity[c.a], &vb = b.velocity[c.b];
+    const Vec3 n = normalOf(c, b.pose);
     for (int k = 0; k < c.count; ++k) {
-      const Vec3 armA = w.bodies.pose[c.a].q * c.points[k].coreA;
-      const Vec3 armB = w.bodies.pose[c.b].q * c.points[k].coreB;
-      const double speed = n.dot(a.v + a.w.cross(armA) - b.v - b.w.cross(armB));
-      most = std::max(most, -speed * dt);
+      const Vec3 armA = b.pose[c.a].q * c.points[k].coreA;
+      const Vec3 armB = b.pose[c.b].q * c.points[k].coreB;
+      if (-dt * n.dot(va.v + va.w.cross(armA) - vb.v - vb.w.cross(armB)) > far) return true;
     }
   }
-  return most;
+  return false;
 }
 
 SmallSteps::Batch& SmallSteps::Impl::batchFor(int count, int sweepCount) {
@@ -577,6 +583,7 @@ void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepRepor
   if (count > 0) {
     turnTo("contact");
     toLanes(batch);
+    kernels.measure(blocks, count, batch.motions.data());
     for (int s = 0; s < batch.sweeps; ++s) {
       kernels.sweepVelocities(blocks, count, batch.motions.data());
       if (batch.articulations.empty()) continue;
@@ -708,8 +715,9 @@ void SmallSteps::Impl::advance(World::Impl& w, StepReport& report) {
   while (!look(w, dt)) {
   }
   // Where pairs come closer by more than they are watched within, contacts are looked for twice.
-  const int looks =
-      w.touches && fastest(w, dt) > w.settings.contact->margin && w.settings.substeps > 1 ? 2 : 1;
+  const bool isFast =
+      w.touches && w.settings.substeps > 1 && closesBy(w, dt, w.settings.contact->margin);
+  const int looks = isFast ? 2 : 1;
   for (int part = 0; part < looks; ++part) {
     if (part > 0) {
       while (!look(w, dt / looks)) {

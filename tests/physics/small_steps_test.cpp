@@ -174,6 +174,7 @@ TEST(ContactKernels, GiveTheSameBytesInHalvesAndInOne) {
     kernels.prepare(&block, 1, masses, 0.02f);
     kernels.warmStart(&block, 1, moved);
     kernels.sweepPositions(&block, 1, moved, 0.01f);
+    kernels.measure(&block, 1, moved);
     for (int k = 0; k < 3; ++k) kernels.sweepVelocities(&block, 1, moved);
   };
   ContactBlock narrow = start, wide = start;
