@@ -173,7 +173,6 @@ Articulation::Articulation(const std::vector<Ref>& refs, const Kinds& kinds,
           if (masses[body].m > 0) at[body].push_back({i, row.bodyCount});
           row.bodies[row.bodyCount++] = body;
         }
-        if constexpr (!Force<C>) tight_ = true;
       }
     });
   }

@@ -62,8 +62,6 @@ class Articulation {
 
   std::span<const BodyId> bodies() const { return bodies_; }
   std::size_t size() const { return rows_.size(); }
-  std::size_t blocks() const { return blocks_.size(); }  // off the diagonal, fill included
-  bool isTight() const { return tight_; }                // it has a row that is not a force
 
   // Adds the geometric stiffness of what it pulled with in the last substep, by BodyId.
   void stiffen(std::span<const Pose> pose, std::span<Mat3> stiffness) const;
@@ -122,7 +120,6 @@ class Articulation {
   std::vector<Coupling> couplings_;
   std::vector<Mat3> blocks_, scaled_, diagonal_, inverse_;
   std::vector<Vec3> right_;
-  bool tight_ = false;
   bool stale_ = true;  // the factor is of other free rows
 };
 
