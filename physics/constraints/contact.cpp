@@ -3,21 +3,11 @@
 
 #include <cmath>
 #include <limits>
-#include <variant>
+
+#include "physics/constraints/contact_shapes.h"
 
 namespace physics {
 namespace {
-
-bool hasFaces(const Shape& shape) {
-  return std::holds_alternative<Box>(shape) || std::holds_alternative<Convex>(shape) ||
-         std::holds_alternative<Plane>(shape);
-}
-
-bool isBall(const Shape& shape) {
-  return std::holds_alternative<Sphere>(shape) || std::holds_alternative<PointShape>(shape);
-}
-
-double geometricMean(double a, double b) { return std::sqrt(a * b); }
 
 // The old point that a fresh one goes on from: the same feature, else the nearest on body a that no
 // fresh point has the feature of. Clipped corners change their names when faces slide past each
@@ -61,9 +51,7 @@ ContactPair fromManifold(const Manifold& manifold, const Bodies& bodies) {
   pair.radial = isBall(a) && isBall(b);
   pair.carried = hasFaces(b);
   pair.normal = pair.carried ? manifold.normal : Vec3(bodies.pose[pair.b].q * manifold.normal);
-  const Friction &fa = bodies.friction[pair.a], &fb = bodies.friction[pair.b];
-  pair.friction.staticCoefficient = geometricMean(fa.staticCoefficient, fb.staticCoefficient);
-  pair.friction.dynamicCoefficient = geometricMean(fa.dynamicCoefficient, fb.dynamicCoefficient);
+  pair.friction = frictionBetween(bodies.friction[pair.a], bodies.friction[pair.b]);
   pair.frictional = pair.friction.staticCoefficient > 0 || bodies.general;
   pair.count = manifold.count;
   for (int k = 0; k < manifold.count; ++k) pair.points[k].shape = manifold.points[k];

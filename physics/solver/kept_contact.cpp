@@ -1,20 +1,12 @@
 // Contacts from step to step.
 #include "physics/solver/kept_contact.h"
 
-#include <cmath>
 #include <limits>
+
+#include "physics/constraints/contact_shapes.h"
 
 namespace physics {
 namespace {
-
-bool hasFaces(const Shape& shape) {
-  return std::holds_alternative<Box>(shape) || std::holds_alternative<Convex>(shape) ||
-         std::holds_alternative<Plane>(shape);
-}
-
-bool isBall(const Shape& shape) {
-  return std::holds_alternative<Sphere>(shape) || std::holds_alternative<PointShape>(shape);
-}
 
 void take(const KeptContact& old, int m, KeptContact& fresh, int k) {
   fresh.lambda[k] = old.lambda[m];
@@ -59,9 +51,7 @@ void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
   fresh.radial = isBall(a) && isBall(b);
   fresh.carried = hasFaces(b);
   fresh.normal = fresh.carried ? found.normal : Vec3(bodies.pose[found.b].q * found.normal);
-  const Friction &fa = bodies.friction[found.a], &fb = bodies.friction[found.b];
-  fresh.friction.staticCoefficient = std::sqrt(fa.staticCoefficient * fb.staticCoefficient);
-  fresh.friction.dynamicCoefficient = std::sqrt(fa.dynamicCoefficient * fb.dynamicCoefficient);
+  fresh.friction = frictionBetween(bodies.friction[found.a], bodies.friction[found.b]);
   fresh.count = found.count;
   for (int k = 0; k < found.count; ++k) fresh.points[k] = found.points[k];
   fresh.lambda = {};

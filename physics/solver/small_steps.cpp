@@ -71,7 +71,6 @@ struct SmallSteps::Impl {
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;
   std::vector<Mat3> stiffness;
-  std::vector<Pose> ahead;
   std::vector<double> load, sag, energy, change;  // by body (of islands by their first)
 
   void learn(World::Impl& w);
@@ -81,10 +80,7 @@ struct SmallSteps::Impl {
   void divide(World::Impl& w);
   Batch& batchFor(int substeps, int sweeps);
   void layOut(World::Impl& w, Batch& batch);
-  void gatherBlock(World::Impl& w, Batch& batch, const std::vector<int>& members,
-                   std::size_t first);
   void predict(World::Impl& w, Batch& batch, double h);
-  void contactStage(Batch& batch, bool isPosition, double h, const World::Impl& w);
   void toLanes(Batch& batch);
   void fromLanes(Batch& batch);
   void displaceAll(World::Impl& w, Batch& batch, double h);
@@ -153,7 +149,6 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   moved.resize(bodies);
   lanesBefore.resize(bodies);
   stiffness.resize(bodies, Mat3::Zero());
-  ahead.resize(bodies);
   load.resize(bodies);
   sag.resize(bodies);
   energy.resize(bodies);
@@ -221,7 +216,6 @@ bool SmallSteps::Impl::look(World::Impl& w, double dt) {
 bool SmallSteps::Impl::closesBy(const World::Impl& w, double dt, double far) {
   const Bodies& b = w.bodies;
   const auto speed = [&](BodyId i) {  // of any point of it, at the most
-    if (!isMovable(b, i)) return 0.0;
     return b.velocity[i].v.norm() + boundingRadius(b.shape[i]) * b.velocity[i].w.norm();
   };
   for (const BodyId i : b.active) load[i] = speed(i);

@@ -1,0 +1,28 @@
+// What contacts take from the shapes and materials of two bodies.
+#pragma once
+
+#include <cmath>
+#include <variant>
+
+#include "physics/body.h"
+
+namespace physics {
+
+// Its contacts' normal is that of a face, and turns with it.
+inline bool hasFaces(const Shape& shape) {
+  return std::holds_alternative<Box>(shape) || std::holds_alternative<Convex>(shape) ||
+         std::holds_alternative<Plane>(shape);
+}
+
+// Between two of these the normal joins the centres.
+inline bool isBall(const Shape& shape) {
+  return std::holds_alternative<Sphere>(shape) || std::holds_alternative<PointShape>(shape);
+}
+
+// Geometric means.
+inline Friction frictionBetween(const Friction& a, const Friction& b) {
+  return {std::sqrt(a.staticCoefficient * b.staticCoefficient),
+          std::sqrt(a.dynamicCoefficient * b.dynamicCoefficient)};
+}
+
+}  // namespace physics
