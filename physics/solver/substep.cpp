@@ -1,0 +1,173 @@
+// One substep of a batch: predict, positions, displace, velocities.
+#include <Eigen/LU>
+
+#include "physics/effects/free_motion.h"
+#include "physics/probe.h"
+#include "physics/solver/small_steps_impl.h"
+
+namespace physics {
+namespace {
+
+// omega and half a substep on, by I^-1 (-omega x I omega).
+Vec3 meanSpin(const Mat3& inertia, const Mat3& inverse, const Vec3& omega, double h) {
+  return omega - 0.5 * h * (inverse * omega.cross(inertia * omega));
+}
+
+Mat3 worldInertia(const Pose& pose, const Vec3& principal) {
+  const Mat3 r = pose.q.toRotationMatrix();
+  return r * principal.asDiagonal() * r.transpose();
+}
+
+}  // namespace
+
+// u = h v + h^2 M^-1 f, with the inertia at X^t and, where joints pull, their geometric stiffness.
+void SmallSteps::Impl::predict(World::Impl& w, Batch& batch, double h) {
+  Bodies& b = w.bodies;
+  for (const int k : batch.articulations) {
+    for (const BodyId i : articulations[k].bodies()) stiffness[i].setZero();
+    articulations[k].stiffen(b.pose, stiffness);
+  }
+  for (const BodyId i : batch.bodies) {
+    Displacement& m = moved[i];
+    Velocity& v = b.velocity[i];
+    b.start[i] = b.pose[i];
+    if (b.motion[i] != Motion::kDynamic) {
+      m = {h * v.v, h * v.w};
+      masses[i] = {};
+      continue;
+    }
+    if (w.settings.gravity) v.v += h * *w.settings.gravity;
+    v.v += h * b.inverse[i].m * w.loads[i].force;
+    m.u = h * v.v;
+    masses[i].inverse = b.inverse[i].m;
+    if (b.inverseInertia[i].isZero(0)) {
+      m.theta = h * v.w;
+      masses[i].inertia.setZero();
+      continue;
+    }
+    const bool isRound = isIsotropic(b.inertia[i]);
+    const Mat3 inverse = isRound ? Mat3(b.inverseInertia[i].x() * Mat3::Identity())
+                                 : worldInertia(b.pose[i], b.inverseInertia[i]);
+    v.w += h * (inverse * w.loads[i].torque);
+    masses[i].inertia = inverse;
+    Vec3 omega = v.w;
+    if (isRound && (articulationOf[i] < 0 || stiffness[i].isZero(0))) {
+      m.theta = h * omega;
+      continue;
+    }
+    const Mat3 inertia =
+        isRound ? Mat3(b.inertia[i].x() * Mat3::Identity()) : worldInertia(b.pose[i], b.inertia[i]);
+    if (!isRound) omega = meanSpin(inertia, inverse, omega, h);
+    m.theta = h * omega;
+    if (articulationOf[i] >= 0 && !stiffness[i].isZero(0)) {
+      masses[i].inertia = (inertia + stiffness[i]).inverse();
+    }
+  }
+}
+
+// X <- X + u. Angular momentum is kept while the inertia turns.
+void SmallSteps::Impl::displaceAll(World::Impl& w, Batch& batch, double h) {
+  Bodies& b = w.bodies;
+  for (const BodyId i : batch.bodies) {
+    Displacement& m = moved[i];
+    displace(b.pose[i], m.u, m.theta);
+    b.pose[i].q.normalize();
+    if (b.motion[i] != Motion::kDynamic || b.inverseInertia[i].isZero(0)) continue;
+    if (isIsotropic(b.inertia[i])) {
+      if (articulationOf[i] >= 0) {
+        masses[i].inertia = b.inverseInertia[i].x() * Mat3::Identity();
+      }
+      continue;
+    }
+    const Mat3 inertia = worldInertia(b.start[i], b.inertia[i]);
+    const Mat3 inverse = worldInertia(b.start[i], b.inverseInertia[i]);
+    const Vec3 given = m.theta - h * meanSpin(inertia, inverse, b.velocity[i].w, h);
+    const Vec3 momentum = inertia * (h * b.velocity[i].w + given);
+    masses[i].inertia = worldInertia(b.pose[i], b.inverseInertia[i]);
+    m.theta = masses[i].inertia * momentum;
+  }
+  for (std::size_t s = 1; s < batch.slots.size(); ++s) {
+    LaneMotion& lane = batch.motions[s];
+    for (int k = 0; k < 3; ++k) {
+      lane.du[k] += lane.u[k];
+      lane.dtheta[k] += lane.theta[k];
+    }
+  }
+}
+
+void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepReport& report) {
+  Bodies& b = w.bodies;
+  const ContactKernels& kernels = contactKernels();
+  ContactBlock* blocks = batch.blocks.data();
+  const int count = static_cast<int>(batch.blocks.size());
+  const auto joints = [&](bool first) {
+    for (const int k : batch.articulations) {
+      for (const BodyId i : articulations[k].bodies()) {
+        b.pose[i] = b.start[i];
+        displace(b.pose[i], moved[i].u, moved[i].theta);
+      }
+      articulations[k].solvePositions(w.kinds, {b.pose, b.start, h}, first, masses, moved);
+    }
+  };
+  turnTo("direct");
+  for (const int k : batch.articulations) {
+    if (!w.settings.maxCorrectionSpeed) break;
+    articulations[k].leave(w.kinds, {b.pose, b.start, h}, h * *w.settings.maxCorrectionSpeed);
+  }
+  joints(true);
+  if (count > 0) {
+    turnTo("contact");
+    toLanes(batch);
+    kernels.warmStart(blocks, count, batch.motions.data());
+    const double push = w.settings.contact->maxSeparationSpeed * h;
+    kernels.sweepPositions(blocks, count, batch.motions.data(), static_cast<float>(push));
+    fromLanes(batch);
+  }
+  turnTo("direct");
+  joints(false);
+  if (count == 0) joints(false);  // as smooth as this, another step of Newton's costs little
+  for (const int k : batch.articulations) {
+    for (const BodyId i : articulations[k].bodies()) b.pose[i] = b.start[i];
+  }
+  if (count > 0 && !batch.articulations.empty()) toLanes(batch);
+  turnTo("motion");
+  displaceAll(w, batch, h);
+  turnTo("direct");
+  for (const int k : batch.articulations) {
+    articulations[k].prepareVelocities(w.kinds, {b.pose, b.start, h}, masses);
+    articulations[k].solveVelocities(masses, moved);
+  }
+  if (count > 0) {
+    turnTo("contact");
+    toLanes(batch);
+    kernels.measure(blocks, count, batch.motions.data());
+    for (int s = 0; s < batch.sweeps; ++s) {
+      kernels.sweepVelocities(blocks, count, batch.motions.data());
+      if (batch.articulations.empty()) continue;
+      fromLanes(batch);
+      turnTo("direct");
+      for (const int k : batch.articulations) articulations[k].solveVelocities(masses, moved);
+      turnTo("contact");
+      if (s + 1 < batch.sweeps) toLanes(batch);
+    }
+    if (batch.articulations.empty()) fromLanes(batch);
+  }
+  turnTo("motion");
+  for (const BodyId i : batch.bodies) {
+    if (b.motion[i] != Motion::kDynamic) continue;
+    b.velocity[i].v = moved[i].u / h;
+    b.velocity[i].w = moved[i].theta / h;
+  }
+  turnTo("");
+  report.iterations += 1 + batch.sweeps;
+  report.work.contactVisits +=
+      static_cast<std::int64_t>(batch.contacts.size()) * (1 + batch.sweeps);
+  report.work.frictionRows += static_cast<std::int64_t>(batch.contacts.size()) * batch.sweeps;
+  for (const int k : batch.articulations) {
+    report.constraintEvaluations += 3 * static_cast<std::int64_t>(articulations[k].size());
+  }
+  report.constraintEvaluations +=
+      static_cast<std::int64_t>(batch.contacts.size()) * (1 + batch.sweeps);
+}
+
+}  // namespace physics
