@@ -47,6 +47,8 @@ void SoftCollider::addBody(BodyId body, const Shape& shape) {
   Rigid rigid;
   rigid.body = body;
   rigid.solid = makeSolid(shape);
+  rigidOf_.resize(std::max<std::size_t>(rigidOf_.size(), body + 1), -1);
+  rigidOf_[body] = static_cast<int>(rigids_.size());
   rigids_.push_back(std::move(rigid));
 }
 
@@ -135,6 +137,20 @@ std::span<const SoftTouch> SoftCollider::find(std::span<const Pose> start,
     for (const Rigid& rigid : rigids_) {
       if (out && leftOut[rigid.body]) continue;
       if (mayTouch(elements_[k], rigid, start, end, margin)) look(k, rigid, start, end, margin);
+    }
+  }
+  return touches_;
+}
+
+std::span<const SoftTouch> SoftCollider::find(std::span<const SoftPair> pairs,
+                                              std::span<const Pose> start,
+                                              std::span<const Pose> end, double margin) {
+  takeMotion(start, end, margin);
+  touches_.clear();
+  for (const SoftPair& pair : pairs) {
+    const Rigid& rigid = rigids_[rigidOf_[pair.body]];
+    if (mayTouch(elements_[pair.element], rigid, start, end, margin)) {
+      look(pair.element, rigid, start, end, margin);
     }
   }
   return touches_;

@@ -30,6 +30,12 @@ struct SoftTouch {
   double gap = 0;               // m
 };
 
+// Those that may touch within a step.
+struct SoftPair {
+  int element = 0;
+  BodyId body = 0;
+};
+
 class SoftCollider {
  public:
   void addBody(BodyId body, const Shape& shape);
@@ -48,6 +54,9 @@ class SoftCollider {
   // not looked at.
   std::span<const SoftTouch> find(std::span<const Pose> start, std::span<const Pose> end,
                                   double margin, std::span<const char> leftOut = {});
+  // The same for these pairs alone.
+  std::span<const SoftTouch> find(std::span<const SoftPair> pairs, std::span<const Pose> start,
+                                  std::span<const Pose> end, double margin);
 
  private:
   struct Rigid {
@@ -67,6 +76,7 @@ class SoftCollider {
 
   std::vector<SoftElement> elements_;
   std::vector<Rigid> rigids_;
+  std::vector<int> rigidOf_;  // by body, -1: none
   std::vector<std::array<BodyId, 2>> ignored_;  // sorted
   std::vector<SoftTouch> touches_;
 };

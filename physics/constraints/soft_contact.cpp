@@ -92,6 +92,7 @@ void startSoftContacts(std::span<const SoftTouch> touches, const SoftCollider& c
     const SoftElement& element = collider.element(touch.element);
     const Pose& b = bodies.start[touch.body];
     SoftContact contact;
+    contact.element = touch.element;
     contact.from = element.from;
     contact.to = element.to;
     contact.body = touch.body;

@@ -27,6 +27,7 @@ struct SoftSurfaceDef {
 constexpr double kLeastShare = 0.05;
 
 struct SoftContact {
+  int element = 0;  // of the collider
   BodyId from = 0, to = 0, body = 0;
   double along = 0;               // t
   double radius = 0;              // m
@@ -37,6 +38,7 @@ struct SoftContact {
   Friction friction;
   double gapAtStart = 0;              // m
   double normalTotal = 0;             // accumulated, times h^2
+  double step = 0;                    // that h [s]; small steps only
   Vec3 frictionTotal = Vec3::Zero();  // on the soft side, world, times h^2
 };
 

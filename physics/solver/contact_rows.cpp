@@ -173,6 +173,7 @@ void SmallSteps::Impl::fromLanes(Batch& batch) {
 
 // Multipliers from the lanes to the contacts that are kept.
 void SmallSteps::Impl::takeOver(Batch& batch, double h) {
+  physics::takeOver(batch.softRows, batch.soft);
   for (const ContactBlock& block : batch.blocks) {
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
       if (block.contact[l] < 0) continue;

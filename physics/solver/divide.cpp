@@ -5,17 +5,30 @@
 #include "physics/solver/small_steps_impl.h"
 
 namespace physics {
+namespace {
+
+// The end of a point or link that moves.
+BodyId moverOf(const SoftElement& element, const Bodies& bodies) {
+  return isMovable(bodies, element.from) ? element.from : element.to;
+}
+
+}  // namespace
+
 void SmallSteps::clear(Batch& batch) {
   batch.bodies.clear();
   batch.contacts.clear();
   batch.articulations.clear();
+  batch.deformables.clear();
+  batch.softPairs.clear();
+  batch.soft.clear();
   batch.blocks.clear();
   batch.motions.clear();
   batch.masses.clear();
   batch.slots.clear();
 }
 
-// Bodies that constraints join make an articulation.
+// Bodies that constraints join make an articulation; points, and what has a factor that would fill
+// up, a deformable.
 void SmallSteps::Impl::learn(World::Impl& w) {
   makeRoom(w.bodies.pose.size());
   if (known && articulationOf.size() == w.bodies.pose.size()) return;
@@ -36,11 +49,20 @@ void SmallSteps::Impl::learn(World::Impl& w) {
   });
   std::sort(roots.begin(), roots.end());
   articulations.clear();
+  deformables.clear();
   articulationOf.assign(w.bodies.pose.size(), -1);
+  deformableOf.assign(w.bodies.pose.size(), -1);
   for (const BodyId root : roots) {
-    for (const BodyId body :
-         articulations.emplace_back(rows[root], w.kinds, w.bodies.inverse).bodies()) {
-      articulationOf[body] = static_cast<int>(articulations.size()) - 1;
+    const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
+    const bool isDirect = mesh.fill <= kMostFill;
+    if (mesh.points || !isDirect) {
+      deformables.emplace_back(rows[root], w.kinds, w.bodies.inverse, isDirect);
+      for (const BodyId i : deformables.back().bodies())
+        deformableOf[i] = static_cast<int>(deformables.size()) - 1;
+    } else {
+      articulations.emplace_back(rows[root], w.kinds, w.bodies.inverse);
+      for (const BodyId i : articulations.back().bodies())
+        articulationOf[i] = static_cast<int>(articulations.size()) - 1;
     }
   }
 }
@@ -62,6 +84,11 @@ void SmallSteps::Impl::divide(World::Impl& w) {
   const Bodies& b = w.bodies;
   islands = jointIslands(w);
   for (const KeptContact& c : contacts) join(b, islands, c.a, c.b);
+  for (const SoftPair& pair : softPairs) {
+    const SoftElement& element = w.softCollider.element(pair.element);
+    join(b, islands, element.from, element.to);
+    join(b, islands, moverOf(element, b), pair.body);
+  }
   settle(islands, b.active);
   for (const BodyId i : b.active) {
     batchOf[i] = -1;
@@ -73,10 +100,13 @@ void SmallSteps::Impl::divide(World::Impl& w) {
     const BodyId root = islands[i];
     substeps[root] = std::max(substeps[root], asked[i]);
     sweeps[root] = std::max(sweeps[root], askedSweeps[i]);
-    if (articulationOf[i] >= 0) energy[root] = 1;
+    if (articulationOf[i] >= 0 || deformableOf[i] >= 0) energy[root] = 1;
   }
   for (const KeptContact& c : contacts) {
     energy[islands[isMovable(b, c.a) ? c.a : c.b]] = 1;
+  }
+  for (const SoftPair& pair : softPairs) {
+    energy[islands[moverOf(w.softCollider.element(pair.element), b)]] = 1;
   }
   batchCount = 0;
   free.clear();
@@ -96,10 +126,22 @@ void SmallSteps::Impl::divide(World::Impl& w) {
     if (articulation >= 0 && articulations[articulation].bodies().front() == i) {
       batches[batchOf[i]].articulations.push_back(articulation);
     }
+    const int deformable = deformableOf[i];
+    if (deformable >= 0 && deformables[deformable].bodies().front() == i) {
+      batches[batchOf[i]].deformables.push_back(deformable);
+    }
   }
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const BodyId body = isMovable(b, contacts[k].a) ? contacts[k].a : contacts[k].b;
     batches[batchOf[body]].contacts.push_back(static_cast<int>(k));
+  }
+  for (const SoftPair& pair : softPairs) {
+    const BodyId mover = moverOf(w.softCollider.element(pair.element), b);
+    batches[batchOf[mover]].softPairs.push_back(pair);
+  }
+  for (const SoftContact& c : w.softContacts) {
+    const BodyId body = isMovable(b, c.from) ? c.from : c.to;
+    if (batchOf[body] >= 0) batches[batchOf[body]].soft.push_back(c);
   }
 }
 

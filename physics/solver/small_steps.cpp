@@ -5,16 +5,23 @@
 #include <cmath>
 
 #include "physics/not_finite.h"
+#include "physics/presence.h"
 #include "physics/solver/small_steps_impl.h"
 
 namespace physics {
 namespace {
 
 constexpr double kLargestSag = 1.25e-4;  // of the smaller body, on the average of the load
+constexpr double kLargestStrain = 0.02;  // of what holds a mesh, in the same way
 constexpr int kMostSubsteps = 64;
 constexpr double kRest =
     1e-6;  // what a velocity sweep still changes, of an island's energy in g h^2
 constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved again in each
+
+// What goes with h^2 and is `times` too large.
+int substepsFor(int present, double times) {
+  return static_cast<int>(std::min<double>(std::ceil(present * std::sqrt(times)), kMostSubsteps));
+}
 
 }  // namespace
 
@@ -48,14 +55,7 @@ std::size_t SmallSteps::bytes() const {
 }
 
 bool takesSmallSteps(const World::Impl& w) {
-  const bool bounces = w.settings.contact && w.settings.contact->restitution > 0;
-  bool takes = w.settings.method == Method::kSmallSteps &&
-               w.settings.stepping == Stepping::kPaper && w.softCollider.empty() && !bounces;
-  forEachKind(w.kinds, [&](const auto& kind) {
-    using C = typename std::decay_t<decltype(kind)>::Item;
-    if constexpr (C::kBodies == kMany || C::kBodies > 2) takes = takes && kind.set.items.empty();
-  });
-  return takes;
+  return w.settings.method == Method::kSmallSteps && w.settings.stepping == Stepping::kPaper;
 }
 
 void SmallSteps::Impl::makeRoom(std::size_t bodies) {
@@ -80,7 +80,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
 // Contacts from the present poses to where the bodies would be after dt. False: the look met bodies
 // that sleep, which are awake now.
 bool SmallSteps::Impl::look(World::Impl& w, double dt) {
-  if (!w.touches) return true;
+  if (!w.touches && w.softCollider.empty()) return true;
   Bodies& b = w.bodies;
   const Vec3 fall = w.settings.gravity ? Vec3(dt * dt * *w.settings.gravity) : Vec3::Zero().eval();
   for (const BodyId i : b.active) {
@@ -88,6 +88,8 @@ bool SmallSteps::Impl::look(World::Impl& w, double dt) {
     if (b.motion[i] == Motion::kDynamic) w.ahead[i].x += fall;
     displace(w.ahead[i], dt * b.velocity[i].v, dt * b.velocity[i].w);
   }
+  if (!lookSoft(w)) return false;
+  if (!w.touches) return true;
   const auto found = w.collider.find(b.pose, w.ahead, w.settings.contact->margin);
   if (w.sleep.count > 0) {
     const std::size_t called = w.sleep.called.size();
@@ -102,6 +104,40 @@ bool SmallSteps::Impl::look(World::Impl& w, double dt) {
   std::swap(contacts, before);
   keep(before, found, b, contacts);
   return true;
+}
+
+// The same of points and links: which of them may meet a body in this step.
+bool SmallSteps::Impl::lookSoft(World::Impl& w) {
+  softPairs.clear();
+  if (!w.settings.contact || w.softCollider.empty()) return true;
+  const bool some = w.sleep.count > 0;
+  if (some) notePresence(w);
+  const auto leftOut = some ? std::span<const char>(w.present) : std::span<const char>{};
+  const std::size_t called = w.sleep.called.size();
+  for (const SoftTouch& touch :
+       w.softCollider.find(w.bodies.pose, w.ahead, w.settings.contact->margin, leftOut)) {
+    const bool again = !softPairs.empty() && softPairs.back().element == touch.element &&
+                       softPairs.back().body == touch.body;
+    if (!again) softPairs.push_back({touch.element, touch.body});
+    const SoftElement& element = w.softCollider.element(touch.element);
+    for (const BodyId i : {element.from, element.to, touch.body}) callAwake(w, i);
+  }
+  if (w.sleep.called.size() == called) return true;
+  wakeCalled(w);
+  return false;
+}
+
+// Contacts of points and links from the batches, in the collider's order.
+void SmallSteps::Impl::gatherSoft(World::Impl& w) {
+  if (w.softCollider.empty()) return;
+  w.softContacts.clear();
+  for (std::size_t k = 0; k < batchCount; ++k) {
+    w.softContacts.insert(w.softContacts.end(), batches[k].soft.begin(), batches[k].soft.end());
+  }
+  std::stable_sort(w.softContacts.begin(), w.softContacts.end(),
+                   [](const SoftContact& a, const SoftContact& b) {
+                     return a.element != b.element ? a.element < b.element : a.body < b.body;
+                   });
 }
 
 // True where two bodies of a contact come closer in dt by more than `far` [m].
@@ -125,6 +161,24 @@ bool SmallSteps::Impl::closesBy(const World::Impl& w, double dt, double far) {
   return false;
 }
 
+// The same of the overlaps of points and links, relative to their thickness.
+void SmallSteps::Impl::askSoft(World::Impl& w, Batch& batch) {
+  const Bodies& b = w.bodies;
+  if (batch.soft.empty()) return;
+  for (const BodyId i : batch.bodies) change[i] = 0;
+  for (const SoftContact& c : batch.soft) {
+    const BodyId root = islands[isMovable(b, c.from) ? c.from : c.to];
+    load[root] += c.normalTotal;
+    change[root] += c.normalTotal * std::max(-gapOf(c, b.pose), 0.0) / c.radius;
+  }
+  for (const BodyId i : batch.bodies) {
+    if (islands[i] != i || !(load[i] > 0)) continue;
+    asked[i] =
+        std::max(asked[i], substepsFor(batch.substeps, change[i] / load[i] / kLargestStrain));
+  }
+  for (const BodyId i : batch.bodies) load[i] = change[i] = 0;
+}
+
 // How many substeps and sweeps the next step wants: the sag of a contact under what it has carried
 // for two steps goes with h^2, and what the last sweep changed tells whether an island is at rest.
 void SmallSteps::Impl::ask(World::Impl& w, Batch& batch, double h) {
@@ -134,6 +188,12 @@ void SmallSteps::Impl::ask(World::Impl& w, Batch& batch, double h) {
     asked[i] = 0;
     energy[i] = change[i] = load[i] = sag[i] = 0;
   }
+  for (const int k : batch.deformables) {
+    const double off = deformables[k].strain(w.kinds, {b.pose, b.start, h});
+    const BodyId first = deformables[k].bodies().front();
+    asked[first] = substepsFor(batch.substeps, off / kLargestStrain);
+  }
+  askSoft(w, batch);
   for (const BodyId i : batch.bodies) {
     if (b.motion[i] != Motion::kDynamic) continue;
     energy[islands[i]] += b.mass[i] * (g * g * h * h * h * h + moved[i].u.squaredNorm());
@@ -159,9 +219,8 @@ void SmallSteps::Impl::ask(World::Impl& w, Batch& batch, double h) {
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {
-      const double wanted =
-          std::ceil(batch.substeps * std::sqrt(sag[root] / load[root] / kLargestSag));
-      asked[i] = static_cast<int>(std::min<double>(wanted, kMostSubsteps));
+      const double off = sag[root] / load[root];
+      asked[i] = std::max(asked[i], substepsFor(batch.substeps, off / kLargestSag));
     }
     const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;
@@ -196,13 +255,17 @@ void SmallSteps::Impl::advance(World::Impl& w, StepReport& report) {
       for (int i = 0; i < count; ++i) {
         predict(w, batch, h);
         if (i == 0 && !batch.blocks.empty()) rows(w, batch, h);
+        lookAgain(w, batch, h);
+        noteApproach(w, batch, h);
         substep(w, batch, h, report);
       }
       takeOver(batch, h);
       ask(w, batch, h);
       for (const int a : batch.articulations) articulations[a].finish(w.kinds, h);
+      for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
       report.work.moves += static_cast<std::int64_t>(batch.bodies.size()) * count;
     }
+    gatherSoft(w);
     checkSolved(w, report);
     if (report.notFinite) return;
   }

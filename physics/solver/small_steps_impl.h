@@ -3,13 +3,18 @@
 //   contact_rows.cpp  contacts into the lanes that sweep over them, and back
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds
+//   bounce.cpp        restitution
 //   small_steps.cpp   the step, and how many substeps it takes
 #pragma once
+
+#include <algorithm>
 
 #include "physics/islands.h"
 #include "physics/solver/articulation.h"
 #include "physics/solver/contact_block.h"
+#include "physics/solver/deformable.h"
 #include "physics/solver/small_steps.h"
+#include "physics/solver/soft_rows.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -18,7 +23,11 @@ namespace physics {
 struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
   std::vector<BodyId> bodies;
-  std::vector<int> contacts, articulations;
+  std::vector<int> contacts, articulations, deformables;
+  std::vector<SoftPair> softPairs;  // what points and links may meet in this step
+  std::vector<SoftContact> soft, softBefore;
+  std::vector<SoftRow> softRows;
+  Contacts impacts;  // with restitution only: the pairs of `contacts`, for one substep
   std::vector<ContactBlock> blocks;
   std::vector<LaneMotion> motions;  // by slot; 0 is what does not move
   std::vector<LaneMass> masses;
@@ -28,8 +37,9 @@ struct SmallSteps::Batch {
 struct SmallSteps::Impl {
   std::vector<KeptContact> contacts, before;
   std::vector<Articulation> articulations;
-  std::vector<int> articulationOf;    // by body, -1: none
-  bool known = false;                 // articulations are those of the world's constraints
+  std::vector<Deformable> deformables;
+  std::vector<int> articulationOf, deformableOf;  // by body, -1: none
+  bool known = false;                             // these are those of the world's constraints
   std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
   std::vector<int> asked, askedSweeps;
   std::vector<Batch> batches;
@@ -50,20 +60,43 @@ struct SmallSteps::Impl {
   void divide(World::Impl& w);
   Batch& batchFor(int substeps, int sweeps);
   void layOut(World::Impl& w, Batch& batch);
+  bool lookSoft(World::Impl& w);
+  void gatherSoft(World::Impl& w);
+  void lookAgain(World::Impl& w, Batch& batch, double h);
   void predict(World::Impl& w, Batch& batch, double h);
   void toLanes(Batch& batch);
   void fromLanes(Batch& batch);
   void displaceAll(World::Impl& w, Batch& batch, double h);
+  template <class F>
+  static void forEachLane(const Batch& batch, F&& f);
+  void noteApproach(World::Impl& w, Batch& batch, double h);
+  void bounce(World::Impl& w, Batch& batch, double h);
+  void sweepDeformables(World::Impl& w, Batch& batch, double h);
   void substep(World::Impl& w, Batch& batch, double h, StepReport& report);
   void takeOver(Batch& batch, double h);
+  void askSoft(World::Impl& w, Batch& batch);
   void ask(World::Impl& w, Batch& batch, double h);
   void fly(World::Impl& w, double dt);
   void advance(World::Impl& w, StepReport& report);
   void learnLoads(World::Impl& w);
   bool fresh = true;  // nothing has stepped yet, or the state came from elsewhere
   void rows(World::Impl& w, Batch& batch, double h);
+  std::vector<SoftPair> softPairs;
   std::vector<BodyId> free;
   std::vector<Displacement> lanesBefore;
 };
+
+// f(block, lane, place of the contact in batch.contacts) of every lane that has a contact.
+template <class F>
+void SmallSteps::Impl::forEachLane(const Batch& batch, F&& f) {
+  for (const ContactBlock& block : batch.blocks) {
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
+      const auto found =
+          std::lower_bound(batch.contacts.begin(), batch.contacts.end(), block.contact[l]);
+      f(block, l, static_cast<int>(found - batch.contacts.begin()));
+    }
+  }
+}
 
 }  // namespace physics

@@ -8,6 +8,8 @@
 namespace physics {
 namespace {
 
+constexpr int kPositionSweeps = 2;  // of what is swept one by one
+
 // omega and half a substep on, by I^-1 (-omega x I omega).
 Vec3 meanSpin(const Mat3& inertia, const Mat3& inverse, const Vec3& omega, double h) {
   return omega - 0.5 * h * (inverse * omega.cross(inertia * omega));
@@ -65,6 +67,23 @@ void SmallSteps::Impl::predict(World::Impl& w, Batch& batch, double h) {
   }
 }
 
+// Contacts of points and links are looked for anew in every substep: their planes turn quickly.
+void SmallSteps::Impl::lookAgain(World::Impl& w, Batch& batch, double h) {
+  if (batch.softPairs.empty()) return;
+  turnTo("soft_contact");
+  Bodies& b = w.bodies;
+  for (const BodyId i : batch.bodies) {
+    w.ahead[i] = b.start[i];
+    displace(w.ahead[i], moved[i].u, moved[i].theta);
+  }
+  std::swap(batch.soft, batch.softBefore);
+  const auto touches =
+      w.softCollider.find(batch.softPairs, b.pose, w.ahead, w.settings.contact->margin);
+  startSoftContacts(touches, w.softCollider, b, batch.soft);
+  keepSoft(batch.softBefore, h, batch.soft);
+  prepareSoftRows(batch.soft, b.pose, masses, batch.softRows);
+}
+
 // X <- X + u. Angular momentum is kept while the inertia turns.
 void SmallSteps::Impl::displaceAll(World::Impl& w, Batch& batch, double h) {
   Bodies& b = w.bodies;
@@ -92,6 +111,34 @@ void SmallSteps::Impl::displaceAll(World::Impl& w, Batch& batch, double h) {
       lane.du[k] += lane.u[k];
       lane.dtheta[k] += lane.theta[k];
     }
+  }
+}
+
+// Positions of what is swept one by one.
+void SmallSteps::Impl::sweepDeformables(World::Impl& w, Batch& batch, double h) {
+  if (batch.deformables.empty() && batch.softRows.empty()) return;
+  turnTo("soft");
+  Bodies& b = w.bodies;
+  const auto place = [&](const Deformable& deformable, bool first) {
+    for (const BodyId i : deformable.bodies()) {
+      b.pose[i] = b.start[i];
+      if (!first) displace(b.pose[i], moved[i].u, moved[i].theta);
+    }
+  };
+  const double push = w.settings.contact ? w.settings.contact->maxSeparationSpeed * h : 0;
+  const auto evaluate = [&](Deformable& deformable, bool first) {
+    place(deformable, false);
+    deformable.preparePositions(w.kinds, {b.pose, b.start, h}, first, masses, moved);
+    place(deformable, true);
+  };
+  for (const int k : batch.deformables) evaluate(deformables[k], true);
+  warmStart(batch.softRows, moved);
+  for (int s = 0; s < kPositionSweeps; ++s) {
+    for (const int k : batch.deformables) {
+      if (s > 0 && deformables[k].isDirect()) evaluate(deformables[k], false);
+      deformables[k].sweepPositions(moved);
+    }
+    physics::sweepPositions(batch.softRows, push, moved);
   }
 }
 
@@ -123,6 +170,7 @@ void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepRepor
     kernels.sweepPositions(blocks, count, batch.motions.data(), static_cast<float>(push));
     fromLanes(batch);
   }
+  sweepDeformables(w, batch, h);
   turnTo("direct");
   joints(false);
   if (count == 0) joints(false);  // as smooth as this, another step of Newton's costs little
@@ -137,20 +185,38 @@ void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepRepor
     articulations[k].prepareVelocities(w.kinds, {b.pose, b.start, h}, masses);
     articulations[k].solveVelocities(masses, moved);
   }
+  for (const int k : batch.deformables) {
+    deformables[k].prepareVelocities(w.kinds, {b.pose, b.start, h}, masses);
+  }
+  measure(batch.softRows, moved);
+  const auto soft = [&] {
+    physics::sweepVelocities(batch.softRows, moved);
+    for (const int k : batch.deformables) deformables[k].sweepVelocities(moved);
+    physics::sweepVelocities(batch.softRows, moved);
+  };
+  const bool mixed =
+      !batch.articulations.empty() || !batch.deformables.empty() || !batch.softRows.empty();
+  if (count == 0 && mixed) {
+    for (int s = 0; s < batch.sweeps; ++s) {
+      soft();
+      for (const int k : batch.articulations) articulations[k].solveVelocities(masses, moved);
+    }
+  }
   if (count > 0) {
     turnTo("contact");
     toLanes(batch);
     kernels.measure(blocks, count, batch.motions.data());
     for (int s = 0; s < batch.sweeps; ++s) {
       kernels.sweepVelocities(blocks, count, batch.motions.data());
-      if (batch.articulations.empty()) continue;
+      if (!mixed) continue;
       fromLanes(batch);
+      soft();
       turnTo("direct");
       for (const int k : batch.articulations) articulations[k].solveVelocities(masses, moved);
       turnTo("contact");
       if (s + 1 < batch.sweeps) toLanes(batch);
     }
-    if (batch.articulations.empty()) fromLanes(batch);
+    if (!mixed) fromLanes(batch);
   }
   turnTo("motion");
   for (const BodyId i : batch.bodies) {
@@ -158,6 +224,7 @@ void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepRepor
     b.velocity[i].v = moved[i].u / h;
     b.velocity[i].w = moved[i].theta / h;
   }
+  bounce(w, batch, h);
   turnTo("");
   report.iterations += 1 + batch.sweeps;
   report.work.contactVisits +=

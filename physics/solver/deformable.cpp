@@ -1,0 +1,164 @@
+// Cloth and soft bodies, swept.
+#include "physics/solver/deformable.h"
+
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace physics {
+
+using namespace swept;
+Mesh meshOf(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
+            std::span<const InverseMass> masses) {
+  Mesh mesh;
+  std::map<BodyId, int> place;
+  std::vector<std::array<BodyId, 2>> joined;
+  int kindPlace = 0;
+  forEachKind(kinds, [&](const auto& kind) {
+    using C = typename std::decay_t<decltype(kind)>::Item;
+    for (const Articulation::Ref& ref : refs) {
+      if (ref.kind != kindPlace) continue;
+      const auto& bodies = kind.set.items[ref.item].bodies;
+      mesh.points = mesh.points || (C::kBodies != 1 && !isAngular<C>());
+      for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (masses[bodies[i]].m > 0) place.insert({bodies[i], 0});
+        for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+          if (C::kBodies == kMany && j > i + 1) break;  // a row of its own, eliminated last
+          if (masses[bodies[i]].m > 0 && masses[bodies[j]].m > 0) {
+            joined.push_back({bodies[i], bodies[j]});
+          }
+        }
+      }
+    }
+    ++kindPlace;
+  });
+  int count = 0;
+  for (auto& [body, index] : place) index = count++;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < count; ++i)
+    entries.emplace_back(i, i, 1.0 + static_cast<double>(refs.size()));
+  for (const auto& [a, b] : joined) {
+    entries.emplace_back(std::max(place[a], place[b]), std::min(place[a], place[b]), 1e-3);
+  }
+  Eigen::SparseMatrix<double> graph(count, count);
+  graph.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(graph);
+  const Eigen::SparseMatrix<double> columns = factor.matrixL();
+  for (int i = 0; i < count; ++i) mesh.fill += std::pow(columns.col(i).nonZeros(), 2) / count;
+  return mesh;
+}
+
+Deformable::Deformable(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
+                       std::span<const InverseMass> masses, bool direct) {
+  int place = 0;
+  size_ = refs.size();
+  forEachKind(kinds, [&](const auto& kind) {
+    using C = typename std::decay_t<decltype(kind)>::Item;
+    for (const Articulation::Ref& ref : refs) {
+      if (ref.kind != place) continue;
+      std::get<std::vector<SweptRow<C>>>(rows_).emplace_back().item = ref.item;
+      for (const BodyId body : kind.set.items[ref.item].bodies) {
+        if (masses[body].m > 0) bodies_.push_back(body);
+      }
+    }
+    ++place;
+  });
+  std::sort(bodies_.begin(), bodies_.end());
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
+  if (direct) factor_ = std::make_unique<MeshFactor>();
+}
+
+void Deformable::preparePositions(const Kinds& kinds, const Configuration& at, bool first,
+                                  std::span<const JointMass> masses,
+                                  std::span<Displacement> moved) {
+  const auto prepare = [&]<class C>(const C& item, SweptRow<C>& swept, double regularisation) {
+    if (!first && !factor_) return;
+    item.evaluate(at, swept.row);
+    if (first) {
+      swept.pulled = swept.lambda;
+      swept.lambda.setZero();
+    }
+    swept.swept = false;
+    if (!swept.row.active) return;
+    swept.constant = errorOf<C>(swept);
+    invert<C>(swept, respond(item, swept, masses), Force<C> ? 0 : regularisation);
+    if (swept.isLoad) {
+      swept.swept = false;
+    } else {
+      swept.constant -= along(item, swept, moved);
+    }
+  };
+  const auto load = [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if (!swept.row.active || !swept.isLoad) return;
+    swept.lambda = clamped<C>(swept, swept.constant);
+    give(item, swept, swept.lambda, moved);
+  };
+  if (factor_) takeMasses(masses);
+  forEachRow(rows_, kinds, prepare);
+  if (first) forEachRow(rows_, kinds, load);
+  kinds_ = &kinds;
+}
+
+void Deformable::sweepPositions(std::span<Displacement> moved) {
+  if (factor_) return solve(true, moved);
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if (!swept.swept) return;
+    change(item, swept,
+           typename Set<C>::Vector(swept.constant + along(item, swept, moved) +
+                                   swept.alpha * swept.lambda),
+           moved);
+  });
+}
+
+void Deformable::prepareVelocities(const Kinds& kinds, const Configuration& at,
+                                   std::span<const JointMass> masses) {
+  if (factor_) takeMasses(masses);
+  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    swept.swept = swept.swept && !givesWay(swept) && !isSlack(swept);
+    if (!swept.swept) return;
+    item.evaluate(at, swept.row);
+    swept.swept = swept.row.active;
+    if (swept.swept) invert<C>(swept, respond(item, swept, masses), 0);
+  });
+}
+
+void Deformable::sweepVelocities(std::span<Displacement> moved) {
+  if (factor_) return solve(false, moved);
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if (swept.swept) change(item, swept, along(item, swept, moved), moved);
+  });
+}
+
+double Deformable::strain(const Kinds& kinds, const Configuration& at) {
+  double sum = 0, load = 0;
+  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if constexpr (!Force<C> && C::kLinear) {
+      if (!swept.row.active || !swept.alpha.isZero(0) || swept.lambda.isZero(0)) return;
+      double extent = 0;
+      for (const BodyId i : item.bodies) {
+        extent = std::max(extent, (at.now[i].x - at.now[item.bodies[0]].x).norm());
+      }
+      if (!(extent > 0)) return;
+      item.evaluate(at, swept.row);
+      const double size = swept.row.linear[0].norm(), off = swept.row.c.norm() / extent;
+      if (!(size > 0)) return;
+      sum += swept.lambda.norm() * off * off / size;
+      load += swept.lambda.norm() * size;
+    }
+  });
+  return load > 0 ? std::sqrt(sum / load) : 0;
+}
+
+void Deformable::finish(Kinds& kinds, double dt) const {
+  forEachKind(kinds, [&](auto& kind) {
+    using C = typename std::decay_t<decltype(kind)>::Item;
+    for (const SweptRow<C>& swept : std::get<std::vector<SweptRow<C>>>(rows_)) {
+      kind.set.lambda[swept.item].total = swept.lambda;
+      kind.set.lambda[swept.item].step = dt;
+    }
+  });
+}
+
+}  // namespace physics

@@ -1,0 +1,91 @@
+// Ropes, cloth and soft bodies: points that constraints join, of any number at a time. Where the
+// factor of their rows has little fill, as a rope's, they are solved at once, else swept,
+// projected Gauss-Seidel; both over the same
+//   (J M^-1 J^T + alpha) lambda = -(c + J (u - u_0))
+// as an articulation's: evaluated at X + u_0, where the substep was predicted to end. They start
+// from lambda = 0: the directions of a mesh turn too quickly for the last ones to be worth having.
+//   position   c + alpha lambda = 0; a push f that falls off by K has alpha = K^-1, c = -K^-1 f
+//   velocity   J u = 0 for what holds; forces and what gives way have no error to take back
+// u, lambda: displacements of a substep, impulses times the step.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "physics/solver/swept_row.h"
+
+namespace physics {
+
+// What joins bodies: rows between points, and how much a factor would fill up: the length of its
+// columns, squared, on the average.
+struct Mesh {
+  bool points = false;
+  double fill = 0;
+};
+Mesh meshOf(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
+            std::span<const InverseMass> masses);
+// Of a factor worth having: a net of 10 by 10 points has 100.
+inline constexpr double kMostFill = 100;
+
+// M + K and the rows as one symmetric matrix,
+//   (M + K) d + J^T m = 0,   J d - alpha m = -(c + alpha lambda),   d: change of u, m: of -lambda
+// with the geometric stiffness K of what pulls, without which a heavy end on light links gains
+// energy. What is held at a bound keeps its place in the pattern.
+struct MeshFactor {
+  Eigen::SparseMatrix<double> matrix;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+  Eigen::VectorXd right, solution;
+  std::vector<Eigen::Triplet<double>> entries;  // in the order that they are written in
+  std::vector<Eigen::Index> slots;              // of each, in the matrix's values; once laid out
+  bool stale = true;
+};
+
+class Deformable {
+ public:
+  // `refs`: its constraints, in the table's order.
+  Deformable(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
+             std::span<const InverseMass> masses, bool direct);
+
+  std::span<const BodyId> bodies() const { return bodies_; }
+  bool isDirect() const { return factor_ != nullptr; }
+  std::size_t size() const { return size_; }
+
+  // Evaluates all rows at `at`, where `moved` would take the bodies. The first time of a substep, or
+  // again, for another step of Newton's.
+  void preparePositions(const Kinds& kinds, const Configuration& at, bool first,
+                        std::span<const JointMass> masses, std::span<Displacement> moved);
+  void sweepPositions(std::span<Displacement> moved);
+  // At the end of the substep.
+  void prepareVelocities(const Kinds& kinds, const Configuration& at,
+                         std::span<const JointMass> masses);
+  void sweepVelocities(std::span<Displacement> moved);
+  // What holds is off by, relative to its extent, on the average of what it carries.
+  double strain(const Kinds& kinds, const Configuration& at);
+  // Writes the multipliers back to the kinds' sets.
+  void finish(Kinds& kinds, double dt) const;
+
+ private:
+  void takeMasses(std::span<const JointMass> masses);
+  int placeOf(BodyId body) const;  // in bodies_; -1: it does not move
+  void solve(bool positions, std::span<Displacement> moved);
+  void factorize(bool positions);
+  template <class F>
+  void emit(bool positions, F&& entry);
+  void chooseFree(std::span<const Displacement> moved);
+  bool holdAtBounds(std::span<Displacement> moved);
+
+  SweptRows rows_;
+  std::unique_ptr<MeshFactor> factor_;  // none: swept
+  std::vector<int> unknown_;            // by place in bodies_: the first of its 3 or 6
+  std::vector<bool> turns_;             // by place: it has 6
+  int unknowns_ = 0;                    // of bodies
+  std::vector<Mat3> inertia_;           // by place
+  std::vector<double> mass_;
+  std::vector<BodyId> bodies_;  // those that move, sorted
+  std::size_t size_ = 0;
+  const Kinds* kinds_ = nullptr;  // of the last prepare
+};
+
+}  // namespace physics

@@ -1,0 +1,218 @@
+// Ropes and what else has a factor with little fill: all rows at once.
+#include <algorithm>
+#include <type_traits>
+
+#include "physics/solver/deformable.h"
+
+namespace physics {
+
+using namespace swept;
+
+namespace {
+
+// Keeps the factor regular where rows repeat each other: relative to the row's own A.
+constexpr double kRedundancy = 1e-7;
+constexpr int kMostRounds = 6;  // of finding which rows are at a bound
+
+template <class C>
+bool isBounded(const SweptRow<C>& swept) {
+  return swept.low > -kUnbounded || swept.high < kUnbounded || swept.row.longest < kUnbounded;
+}
+
+// How a piece along the unit vector d resists being turned while it pulls:
+//   pull/length (1 - d d^T)
+Mat3 turningStiffness(const Vec3& d, double pull, double length) {
+  if (!(pull > 0) || !(length > 0)) return Mat3::Zero();
+  return pull / length * (Mat3::Identity() - d * d.transpose());
+}
+
+// What a row that may be held is off by, at what the bodies have moved by.
+template <class C>
+typename Set<C>::Vector errorNow(const C& item, const SweptRow<C>& swept, bool positions,
+                                 std::span<const Displacement> moved) {
+  const typename Set<C>::Vector rate = along(item, swept, moved);
+  return positions ? swept.constant + rate + swept.alpha * swept.lambda : rate;
+}
+
+}  // namespace
+
+int Deformable::placeOf(BodyId body) const {
+  const auto found = std::lower_bound(bodies_.begin(), bodies_.end(), body);
+  if (found == bodies_.end() || *found != body) return -1;
+  return static_cast<int>(found - bodies_.begin());
+}
+
+void Deformable::takeMasses(std::span<const JointMass> masses) {
+  const std::size_t count = bodies_.size();
+  const bool isNew = unknown_.empty();
+  unknown_.resize(count);
+  turns_.resize(count);
+  inertia_.resize(count);
+  mass_.resize(count);
+  if (isNew) unknowns_ = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const JointMass& mass = masses[bodies_[k]];
+    mass_[k] = 1 / mass.inverse;
+    if (isNew) {
+      turns_[k] = !mass.inertia.isZero(0);
+      unknown_[k] = unknowns_;
+      unknowns_ += turns_[k] ? 6 : 3;
+    }
+    if (turns_[k]) inertia_[k] = mass.inertia.inverse();
+  }
+  factor_->stale = true;
+}
+
+// entry(row, column, value) of the lower triangle, always the same ones in the same order.
+template <class F>
+void Deformable::emit(bool positions, F&& entry) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    for (int i = 0; i < 3; ++i) {
+      entry(unknown_[k] + i, unknown_[k] + i, mass_[k]);
+      if (!turns_[k]) continue;
+      for (int j = 0; j <= i; ++j)
+        entry(unknown_[k] + 3 + i, unknown_[k] + 3 + j, inertia_[k](i, j));
+    }
+  }
+  // Between two points, on what they move by against each other.
+  const auto pull = [&](BodyId a, BodyId b, const Mat3& stiffness) {
+    const int pa = placeOf(a), pb = placeOf(b);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        if (pa >= 0 && j <= i) entry(unknown_[pa] + i, unknown_[pa] + j, stiffness(i, j));
+        if (pb >= 0 && j <= i) entry(unknown_[pb] + i, unknown_[pb] + j, stiffness(i, j));
+        if (pa >= 0 && pb >= 0) {
+          entry(unknown_[std::max(pa, pb)] + i, unknown_[std::min(pa, pb)] + j, -stiffness(i, j));
+        }
+      }
+    }
+  };
+  int at = unknowns_;
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    const bool free = swept.swept && !swept.held;
+    if constexpr (std::is_same_v<C, Link> || std::is_same_v<C, RopeLength>) {
+      const double pulls = positions && swept.row.active ? -swept.pulled[0] : 0;
+      const double length =
+          (item.length + swept.row.c[0]) / static_cast<double>(item.bodies.size() - 1);
+      Vec3 along = Vec3::Zero();
+      for (std::size_t p = 1; p < item.bodies.size(); ++p) {
+        if (swept.row.active) along += swept.row.linear[p - 1].transpose();
+        pull(item.bodies[p - 1], item.bodies[p], turningStiffness(along, pulls, length));
+      }
+    }
+    for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+      const int place = placeOf(item.bodies[b]);
+      if (place < 0) continue;
+      for (int r = 0; r < C::kRows; ++r) {
+        for (int j = 0; j < 3; ++j) {
+          if constexpr (C::kLinear) {
+            entry(at + r, unknown_[place] + j, free ? swept.row.linear[b](r, j) : 0);
+          }
+          if constexpr (isAngular<C>()) {
+            if (turns_[place]) {
+              entry(at + r, unknown_[place] + 3 + j, free ? swept.row.angular[b](r, j) : 0);
+            }
+          }
+        }
+      }
+    }
+    for (int r = 0; r < C::kRows; ++r) {
+      for (int j = 0; j <= r; ++j) {
+        const double gives = free ? swept.alpha(r, j) : 0;
+        const double least = free ? kRedundancy * swept.own : 1;
+        entry(at + r, at + j, -gives - (r == j ? least : 0));
+      }
+    }
+    at += C::kRows;
+  });
+}
+
+void Deformable::factorize(bool positions) {
+  MeshFactor& f = *factor_;
+  f.stale = false;
+  if (f.slots.empty()) {
+    f.entries.clear();
+    int size = 0;
+    emit(positions, [&](int row, int column, double value) {
+      f.entries.emplace_back(row, column, value);
+      size = std::max(size, row + 1);
+    });
+    f.matrix.resize(size, size);
+    f.matrix.setFromTriplets(f.entries.begin(), f.entries.end());
+    for (const auto& entry : f.entries) {
+      f.slots.push_back(&f.matrix.coeffRef(entry.row(), entry.col()) - f.matrix.valuePtr());
+    }
+    f.entries = {};
+    f.factor.analyzePattern(f.matrix);
+    f.right.resize(size);
+  } else {
+    std::fill_n(f.matrix.valuePtr(), f.matrix.nonZeros(), 0.0);
+    std::size_t next = 0;
+    emit(positions, [&](int, int, double value) { f.matrix.valuePtr()[f.slots[next++]] += value; });
+  }
+  f.factor.factorize(f.matrix);
+}
+
+// Rows that the solution would take past a bound are held there, and the others are to be solved
+// for again.
+bool Deformable::holdAtBounds(std::span<Displacement> moved) {
+  bool any = false;
+  int at = unknowns_;
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    const int first = at;
+    at += C::kRows;
+    if (!swept.swept || swept.held || !isBounded<C>(swept)) return;
+    using Vector = typename Set<C>::Vector;
+    const Vector wanted = swept.lambda - factor_->solution.template segment<C::kRows>(first);
+    const Vector inside = clamped<C>(swept, wanted);
+    if (inside == wanted) return;
+    give(item, swept, Vector(inside - swept.lambda), moved);
+    swept.lambda = inside;
+    swept.held = any = true;
+  });
+  factor_->stale = factor_->stale || any;
+  return any;
+}
+
+// A row at its bound is free where it would move into what it may do.
+void Deformable::chooseFree(std::span<const Displacement> moved) {
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if (!swept.swept || !isBounded<C>(swept)) return;
+    using Vector = typename Set<C>::Vector;
+    const Vector wanted = swept.lambda - errorNow(item, swept, true, moved);
+    const bool held = swept.lambda.isZero(0) && clamped<C>(swept, wanted) == swept.lambda;
+    factor_->stale = factor_->stale || held != swept.held;
+    swept.held = held;
+  });
+}
+
+void Deformable::solve(bool positions, std::span<Displacement> moved) {
+  MeshFactor& f = *factor_;
+  if (positions) chooseFree(moved);
+  for (int round = 1;; ++round) {
+    if (f.stale) factorize(positions);
+    f.right.setZero();
+    int at = unknowns_;
+    forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+      if (swept.swept && !swept.held) {
+        f.right.template segment<C::kRows>(at) = -errorNow(item, swept, positions, moved);
+      }
+      at += C::kRows;
+    });
+    f.solution = f.factor.solve(f.right);
+    if (round == kMostRounds || !holdAtBounds(moved)) break;
+  }
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    moved[bodies_[k]].u += f.solution.segment<3>(unknown_[k]);
+    if (turns_[k]) moved[bodies_[k]].theta += f.solution.segment<3>(unknown_[k] + 3);
+  }
+  int at = unknowns_;
+  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
+    if (swept.swept && !swept.held) {
+      swept.lambda -= f.solution.template segment<C::kRows>(at);
+    }
+    at += C::kRows;
+  });
+}
+
+}  // namespace physics
