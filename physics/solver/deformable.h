@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/solver/soft_rows.h"
 #include "physics/solver/swept_row.h"
 
 namespace physics {
@@ -52,10 +53,12 @@ class Deformable {
   bool isDirect() const { return factor_ != nullptr; }
   std::size_t size() const { return size_; }
 
-  // Evaluates all rows at `at`, where `moved` would take the bodies. The first time of a substep, or
-  // again, for another step of Newton's.
+  // Evaluates all rows at `at`, where `moved` would take the bodies. The first time of a substep,
+  // or again, for another step of Newton's.
   void preparePositions(const Kinds& kinds, const Configuration& at, bool first,
                         std::span<const JointMass> masses, std::span<Displacement> moved);
+  // The contacts of its points: their normal rows are solved with the others.
+  void takeContacts(std::span<SoftRow> rows, double push);
   void sweepPositions(std::span<Displacement> moved);
   // At the end of the substep.
   void prepareVelocities(const Kinds& kinds, const Configuration& at,
@@ -73,7 +76,8 @@ class Deformable {
   void factorize(bool positions);
   template <class F>
   void emit(bool positions, F&& entry);
-  void chooseFree(std::span<const Displacement> moved);
+  double errorNow(const SoftRow& row, bool positions, std::span<const Displacement> moved) const;
+  void chooseFree(bool positions, std::span<const Displacement> moved);
   bool holdAtBounds(std::span<Displacement> moved);
 
   SweptRows rows_;
@@ -83,7 +87,10 @@ class Deformable {
   int unknowns_ = 0;                    // of bodies
   std::vector<Mat3> inertia_;           // by place
   std::vector<double> mass_;
-  std::vector<BodyId> bodies_;  // those that move, sorted
+  std::vector<SoftRow*> contacts_;
+  std::vector<std::array<BodyId, 3>> laid_;  // of the contacts that the factor has rows for
+  double push_ = 0;                          // overlap taken back in a substep, at the most [m]
+  std::vector<BodyId> bodies_;               // those that move, sorted
   std::size_t size_ = 0;
   const Kinds* kinds_ = nullptr;  // of the last prepare
 };

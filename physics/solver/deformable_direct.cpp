@@ -28,7 +28,7 @@ Mat3 turningStiffness(const Vec3& d, double pull, double length) {
 
 // What a row that may be held is off by, at what the bodies have moved by.
 template <class C>
-typename Set<C>::Vector errorNow(const C& item, const SweptRow<C>& swept, bool positions,
+typename Set<C>::Vector rowError(const C& item, const SweptRow<C>& swept, bool positions,
                                  std::span<const Displacement> moved) {
   const typename Set<C>::Vector rate = along(item, swept, moved);
   return positions ? swept.constant + rate + swept.alpha * swept.lambda : rate;
@@ -40,6 +40,25 @@ int Deformable::placeOf(BodyId body) const {
   const auto found = std::lower_bound(bodies_.begin(), bodies_.end(), body);
   if (found == bodies_.end() || *found != body) return -1;
   return static_cast<int>(found - bodies_.begin());
+}
+
+void Deformable::takeContacts(std::span<SoftRow> rows, double push) {
+  contacts_.clear();
+  push_ = push;
+  std::vector<std::array<BodyId, 3>> found;
+  for (SoftRow& row : rows) {
+    const bool own = placeOf(row.from) >= 0 || placeOf(row.to) >= 0;
+    if (!own || !(row.inverse > 0)) continue;
+    row.owned = true;
+    row.held = true;
+    row.lambda = 0;
+    row.friction.setZero();
+    contacts_.push_back(&row);
+    found.push_back({row.from, row.to, row.body});
+  }
+  if (found == laid_) return;
+  laid_ = std::move(found);
+  factor_->slots.clear();
 }
 
 void Deformable::takeMasses(std::span<const JointMass> masses) {
@@ -125,6 +144,24 @@ void Deformable::emit(bool positions, F&& entry) {
     }
     at += C::kRows;
   });
+  for (const SoftRow* row : contacts_) {
+    for (const bool second : {false, true}) {
+      const int place = placeOf(second ? row->to : row->from);
+      if (place < 0) continue;
+      const double share = row->held ? 0 : second ? row->along : 1 - row->along;
+      for (int j = 0; j < 3; ++j) entry(at, unknown_[place] + j, share * row->n[j]);
+    }
+    // What it does to a body that is not of these: as a compliance.
+    const Vec3 lever = row->arm.cross(row->n);
+    const int place = placeOf(row->body);
+    for (int j = 0; place >= 0 && j < 3; ++j) {
+      entry(at, unknown_[place] + j, row->held ? 0 : -row->n[j]);
+      if (turns_[place]) entry(at, unknown_[place] + 3 + j, row->held ? 0 : -lever[j]);
+    }
+    const double body = place < 0 ? row->inverseMass + lever.dot(row->inertia * lever) : 0;
+    entry(at, at, row->held ? -1 : -(body + kRedundancy / row->inverse));
+    ++at;
+  }
 }
 
 void Deformable::factorize(bool positions) {
@@ -170,16 +207,39 @@ bool Deformable::holdAtBounds(std::span<Displacement> moved) {
     swept.lambda = inside;
     swept.held = any = true;
   });
+  for (SoftRow* row : contacts_) {
+    const double wanted = row->lambda - factor_->solution[at++];
+    if (row->held || wanted >= 0) continue;
+    const Vec3 impulse = -row->lambda * row->n;
+    moved[row->from].u += (row->first * (1 - row->along)) * impulse;
+    moved[row->to].u += (row->second * row->along) * impulse;
+    giveBody(*row, impulse, moved);
+    row->lambda = 0;
+    row->held = any = true;
+  }
   factor_->stale = factor_->stale || any;
   return any;
 }
 
+// Of a contact: c at the substep's end, or the speed with which it closes.
+double Deformable::errorNow(const SoftRow& row, bool positions,
+                            std::span<const Displacement> moved) const {
+  const double rate = row.n.dot(slipOf(row, moved));
+  return positions ? row.gap + rate - std::min(row.gap + push_, 0.0) : row.open + rate;
+}
+
 // A row at its bound is free where it would move into what it may do.
-void Deformable::chooseFree(std::span<const Displacement> moved) {
+void Deformable::chooseFree(bool positions, std::span<const Displacement> moved) {
+  for (SoftRow* row : contacts_) {
+    const bool held = !(row->lambda > 0) && errorNow(*row, positions, moved) >= 0;
+    factor_->stale = factor_->stale || held != row->held;
+    row->held = held;
+  }
+  if (!positions) return;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if (!swept.swept || !isBounded<C>(swept)) return;
     using Vector = typename Set<C>::Vector;
-    const Vector wanted = swept.lambda - errorNow(item, swept, true, moved);
+    const Vector wanted = swept.lambda - rowError(item, swept, true, moved);
     const bool held = swept.lambda.isZero(0) && clamped<C>(swept, wanted) == swept.lambda;
     factor_->stale = factor_->stale || held != swept.held;
     swept.held = held;
@@ -188,17 +248,20 @@ void Deformable::chooseFree(std::span<const Displacement> moved) {
 
 void Deformable::solve(bool positions, std::span<Displacement> moved) {
   MeshFactor& f = *factor_;
-  if (positions) chooseFree(moved);
+  chooseFree(positions, moved);
   for (int round = 1;; ++round) {
     if (f.stale) factorize(positions);
     f.right.setZero();
     int at = unknowns_;
     forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
       if (swept.swept && !swept.held) {
-        f.right.template segment<C::kRows>(at) = -errorNow(item, swept, positions, moved);
+        f.right.template segment<C::kRows>(at) = -rowError(item, swept, positions, moved);
       }
       at += C::kRows;
     });
+    for (const SoftRow* row : contacts_) {
+      f.right[at++] = row->held ? 0 : -errorNow(*row, positions, moved);
+    }
     f.solution = f.factor.solve(f.right);
     if (round == kMostRounds || !holdAtBounds(moved)) break;
   }
@@ -213,6 +276,12 @@ void Deformable::solve(bool positions, std::span<Displacement> moved) {
     }
     at += C::kRows;
   });
+  for (SoftRow* row : contacts_) {
+    const double change = -f.solution[at++];
+    if (row->held) continue;
+    row->lambda += change;
+    if (placeOf(row->body) < 0) giveBody(*row, change * row->n, moved);
+  }
 }
 
 }  // namespace physics

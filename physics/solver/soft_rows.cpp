@@ -6,20 +6,24 @@
 #include <utility>
 
 namespace physics {
-namespace {
 
-// What p on the soft side moves by against the matter of the body.
 Vec3 slipOf(const SoftRow& row, std::span<const Displacement> moved) {
   const Displacement& b = moved[row.body];
   return (1 - row.along) * moved[row.from].u + row.along * moved[row.to].u - b.u -
          b.theta.cross(row.arm);
 }
 
+void giveBody(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved) {
+  moved[row.body].u -= row.inverseMass * impulse;
+  moved[row.body].theta -= row.inertia * row.arm.cross(impulse);
+}
+
+namespace {
+
 void giveTo(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved) {
   moved[row.from].u += (row.first * (1 - row.along)) * impulse;
   moved[row.to].u += (row.second * row.along) * impulse;
-  moved[row.body].u -= row.inverseMass * impulse;
-  moved[row.body].theta -= row.inertia * row.arm.cross(impulse);
+  giveBody(row, impulse, moved);
 }
 
 void rub(SoftRow& row, std::span<Displacement> moved) {
@@ -80,6 +84,7 @@ void warmStart(std::span<SoftRow> rows, std::span<Displacement> moved) {
 
 void sweepPositions(std::span<SoftRow> rows, double push, std::span<Displacement> moved) {
   for (SoftRow& row : rows) {
+    if (row.owned) continue;
     const double c = row.gap + row.n.dot(slipOf(row, moved)) - std::min(row.gap + push, 0.0);
     const double total = std::max(row.lambda - row.inverse * c, 0.0);
     giveTo(row, (total - row.lambda) * row.n, moved);
@@ -93,11 +98,13 @@ void measure(std::span<SoftRow> rows, std::span<const Displacement> moved) {
 
 void sweepVelocities(std::span<SoftRow> rows, std::span<Displacement> moved) {
   for (SoftRow& row : rows) {
-    const double c = row.open + row.n.dot(slipOf(row, moved));
-    const double total = std::max(row.lambda - row.inverse * c, 0.0);
-    giveTo(row, (total - row.lambda) * row.n, moved);
-    row.lambda = total;
-    if (total > 0 || !row.friction.isZero(0)) rub(row, moved);
+    if (!row.owned) {
+      const double c = row.open + row.n.dot(slipOf(row, moved));
+      const double total = std::max(row.lambda - row.inverse * c, 0.0);
+      giveTo(row, (total - row.lambda) * row.n, moved);
+      row.lambda = total;
+    }
+    if (row.lambda > 0 || !row.friction.isZero(0)) rub(row, moved);
   }
 }
 

@@ -25,7 +25,14 @@ struct SoftRow {
   Eigen::Matrix2d tangentInverse;
   Eigen::Vector2d friction;
   Friction coefficients;
+  bool owned = false;  // its normal row is solved with those of a deformable
+  bool held = true;    // there: at its bound
 };
+
+// What p on the soft side moves by against the matter of the body.
+Vec3 slipOf(const SoftRow& row, std::span<const Displacement> moved);
+// Displaces the body alone by an impulse on the soft side.
+void giveBody(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved);
 
 // Rows at the present poses, which start from the contacts' multipliers.
 void prepareSoftRows(std::span<const SoftContact> contacts, std::span<const Pose> pose,

@@ -131,7 +131,10 @@ void SmallSteps::Impl::sweepDeformables(World::Impl& w, Batch& batch, double h) 
     deformable.preparePositions(w.kinds, {b.pose, b.start, h}, first, masses, moved);
     place(deformable, true);
   };
-  for (const int k : batch.deformables) evaluate(deformables[k], true);
+  for (const int k : batch.deformables) {
+    evaluate(deformables[k], true);
+    if (deformables[k].isDirect()) deformables[k].takeContacts(batch.softRows, push);
+  }
   warmStart(batch.softRows, moved);
   for (int s = 0; s < kPositionSweeps; ++s) {
     for (const int k : batch.deformables) {
