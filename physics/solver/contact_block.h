@@ -8,9 +8,12 @@
 //
 // A contact gives way as the spring and damper of (117)-(124), as stiff as the substep resolves:
 //   position   c > 0:  dlambda = -(J u + c) / A
-//              else    dlambda = -(s J u + max(s b c, -push)) / A - (1 - s) lambda
+//              else    dlambda = -(s J u + r c) / A - (1 - s) (lambda - held)
+//                      r = min(s b, push / depth of the deepest)
 //   velocity           dlambda = -(J u + max(c, 0)) / A, and friction on the disc of (96)-(101)
-// with the total projected on lambda >= 0. No include but this: it is compiled for several
+// with the total projected on lambda >= 0. What is deep is taken back by the same share at all
+// points of a manifold, so that it does not tilt on its way out. `held` is a part of the load at
+// the start: what is drawn at rest sags less. No include but this: it is compiled for several
 // machines.
 #pragma once
 
@@ -41,6 +44,7 @@ struct alignas(32) ContactBlock {
     float torqueA[3][8], torqueB[3][8], turnA[3][8], turnB[3][8];  // r x n, I^-1 (r x n)
     float gap[8], lambda[8], inverse[8];                           // 1/A; 0: no such point
     float open[8];   // max(c, 0), of the substep's end
+    float held[8];   // of lambda, what the spring carries without giving way
     float lever[8];  // from the centre of friction
   };
   struct Tangent {

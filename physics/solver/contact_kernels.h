@@ -175,14 +175,17 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float push
   gatherAll(m.bodyB, motions, b);
   const Lanes3 n = load(m.n);
   const Lanes massA = load(m.massA), massB = load(m.massB), zero = all(0), one = all(1);
-  const Lanes soft = load(m.scale), rate = load(m.rate), most = all(-push);
+  const Lanes soft = load(m.scale);
+  Lanes deepest = all(kTiny);
+  for (const ContactBlock::Point& p : m.point) deepest = larger(deepest, zero - gapOf(p, n, a, b));
+  const Lanes share = smaller(soft * load(m.rate), all(push) / deepest);
   for (ContactBlock::Point& p : m.point) {
     const Lanes c = gapOf(p, n, a, b), lambda = load(p.lambda);
     const Lanes v = rateAlong(n, load(p.torqueA), load(p.torqueB), a, b);
     const Lanes scale = wherePositive(c, one, soft);
-    const Lanes aim = wherePositive(c, c, larger(soft * rate * c, most));
-    const Lanes wanted = lambda - load(p.inverse) * (scale * v + aim) - (one - scale) * lambda;
-    const Lanes total = larger(wanted, zero);
+    const Lanes aim = wherePositive(c, c, share * c);
+    const Lanes yields = (one - scale) * (lambda - load(p.held));
+    const Lanes total = larger(lambda - load(p.inverse) * (scale * v + aim) - yields, zero);
     store(p.lambda, total);
     give(p, n, massA, massB, total - lambda, a, b);
   }

@@ -11,6 +11,7 @@ namespace {
 void take(const KeptContact& old, int m, KeptContact& fresh, int k) {
   fresh.lambda[k] = old.lambda[m];
   fresh.before[k] = old.before[m];
+  fresh.held[k] = old.held[m];
 }
 
 // A point goes on from the one with its feature, else from the nearest on body a that none has:
@@ -56,6 +57,7 @@ void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
   for (int k = 0; k < found.count; ++k) fresh.points[k] = found.points[k];
   fresh.lambda = {};
   fresh.before = {};
+  fresh.held = {};
   fresh.tangential.setZero();
   fresh.twist = fresh.step = 0;
 }

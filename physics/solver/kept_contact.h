@@ -21,6 +21,8 @@ struct KeptContact {
   // Impulses times the step, on a: along the normal, at the last substep and a step earlier; of
   // friction at the centre (world), and of its twist about the normal.
   std::array<double, Manifold::kMaxPoints> lambda{}, before{};
+  // Force [N] that the points carried where the world began.
+  std::array<double, Manifold::kMaxPoints> held{};
   Vec3 tangential = Vec3::Zero();
   double twist = 0;
   std::array<ContactPoint, Manifold::kMaxPoints> points;

@@ -287,6 +287,9 @@ void SmallSteps::Impl::learnLoads(World::Impl& w) {
     for (Articulation& articulation : articulations) articulation.forget();
     if (contacts.empty() || unused.notFinite) return;
   }
+  for (KeptContact& c : contacts) {
+    for (int k = 0; k < c.count; ++k) c.held[k] = c.lambda[k] / (c.step * c.step);
+  }
 }
 
 void SmallSteps::step(World::Impl& w, StepReport& report) {

@@ -127,6 +127,20 @@ TEST(SmallSteps, AMillionMetresAwayAStackStandsAsWell) {
   }
 }
 
+// Two boxes a quarter inside each other come apart level, no faster than they may.
+TEST(SmallSteps, OverlapIsTakenBackLevel) {
+  Settings settings = byDefault();
+  settings.gravity.reset();
+  World world(settings);
+  addBody(world, Box{Vec3(1, 1, 1)}, Vec3(0, 0, 0), 1);
+  const BodyId upper = addBody(world, Box{Vec3(1, 1, 1)}, Vec3(0, 0.75, 0), 1);
+  run(world, 6);
+  EXPECT_LE(world.bodies().pose[upper].x.y() - 0.75, 0.5 * 0.1 * 1.02);  // half of 1 m/s
+  run(world, 114);
+  EXPECT_LT(world.bodies().pose[upper].q.vec().norm(), 1e-3);
+  EXPECT_NEAR(world.bodies().pose[upper].x.y(), 0.875, 5e-3);
+}
+
 TEST(SmallSteps, AtAHitMomentumIsKept) {
   Settings settings = byDefault();
   settings.gravity.reset();

@@ -51,24 +51,35 @@ std::vector<StabilityCase> casesOf(const std::string& text, const std::string& v
   return readStabilityCases(file.string() + variant);
 }
 
-StabilityFamily chains() {
+StabilityFamily familyOf(const std::string& name) {
   for (const StabilityFamily& family : stabilityFamilies()) {
-    if (family.name == "chains") return family;
+    if (family.name == name) return family;
   }
-  ADD_FAILURE() << "no family chains";
+  ADD_FAILURE() << "no family " << name;
   return {};
 }
 
 TEST(StabilityCase, HasTheSettingsOfItsFamily) {
-  const StabilityFamily family = chains();
+  const StabilityFamily family = familyOf("direct");
   const Value* substeps = findValue(family.settings, "simulation.substeps");
   ASSERT_NE(substeps, nullptr);
   const Value* most = findValue(family.settings, "simulation.max_iterations");
   ASSERT_NE(most, nullptr);
-  const Scene scene = caseSceneOf(kCaseHead + kBody);
+  const Scene scene =
+      caseSceneOf("duration = 1\n[stability]\nfamily = \"direct\"\nabout = \"a\"\n" + kBody);
   EXPECT_EQ(scene.settings.substeps, substeps->integer);
   EXPECT_EQ(scene.settings.method, physics::Method::kDirect);
   EXPECT_EQ(scene.settings.maxIterations, most->integer);
+}
+
+TEST(StabilityCase, AtTheDefaultSaysFramesPerSecondAlone) {
+  for (const char* name : {"chains", "stacks", "heaps", "impacts", "ragdolls", "arms"}) {
+    const StabilityFamily family = familyOf(name);
+    ASSERT_EQ(family.settings.members.size(), 1u) << name;
+    const Value& simulation = family.settings.members[0].value;
+    ASSERT_EQ(simulation.members.size(), 1u) << name;
+    EXPECT_EQ(simulation.members[0].key, "fps");
+  }
 }
 
 TEST(StabilityCase, IsOverriddenFromTheCommandLineAllTheSame) {
