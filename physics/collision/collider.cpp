@@ -17,6 +17,7 @@ using namespace collision;
 namespace {
 
 constexpr double kStill = 1e-4;  // of the size, and rad: a pair that moved less keeps its manifold
+constexpr double kShort = 0.1;   // of the thickness
 constexpr double kSpare = 0.1;   // of the margin: looked further than asked, so that manifolds last
 
 double smallerSize(const Solid& a, const Solid& b) {
@@ -45,7 +46,7 @@ struct Collider::Impl {
 
   struct Step {
     std::span<const Pose> start, end;
-    double margin = 0;
+    double margin = 0, slack = 0;
   };
 
   // Nothing was found, and along the direction that told them apart they do not come near.
@@ -59,13 +60,25 @@ struct Collider::Impl {
     return true;
   }
 
+  // How far a pair may have moved to keep what was found.
+  static double stillness(const Watch& watch, double size, double slack) {
+    return watch.count > 0 ? std::max(kStill * size, slack) : kStill * size;
+  }
+
   // Whether what was found before still holds for surfaces up to `reach` apart.
   static bool holds(const Watch& watch, const Finding& found, const Item& a, const Item& b,
-                    const Relative& pose, double reach) {
+                    const Relative& pose, double reach, double slack) {
     if (reach > watch.reach) return false;
-    const double still = kStill * smallerSize(a.solid, b.solid);
-    return (pose.t - found.pose.t).squaredNorm() <= still * still &&
-           (pose.R - found.pose.R).squaredNorm() <= 2 * kStill * kStill;
+    const double size = smallerSize(a.solid, b.solid);
+    const double move = stillness(watch, size, slack);
+    const double turn = size > 0 ? move / size : kStill;
+    return (pose.t - found.pose.t).squaredNorm() <= move * move &&
+           (pose.R - found.pose.R).squaredNorm() <= 2 * turn * turn;
+  }
+
+  // Of a way that short, the present points tell enough of what is at its end.
+  static bool isShort(const Item& a, const Item& b, double way) {
+    return way <= kShort * std::min(a.solid.thickness, b.solid.thickness);
   }
 
   static Relative relativePose(const Item& a, const Item& b) {
@@ -81,21 +94,21 @@ struct Collider::Impl {
       const double travel = a.travel + b.travel - watch.travel;
       if (watch.count == 0 && watch.distance - travel > reach) return false;
       if (watch.count == 0 && staysApart(watch, a, b, step.margin)) return false;
-      const double still = kStill * smallerSize(a.solid, b.solid);
+      const double still = stillness(watch, smallerSize(a.solid, b.solid), step.slack);
       if (reach <= watch.reach && travel <= still) return false;
     }
     const Relative pose = relativePose(a, b);
-    if (watch.known && holds(watch, found, a, b, pose, reach)) return false;
+    if (watch.known && holds(watch, found, a, b, pose, reach, step.slack)) return false;
     const bool plane = b.solid.kind == Kind::plane;
     watch.known = true;
     watch.travel = a.travel + b.travel;
     watch.reach = reach + kSpare * step.margin;
     found.pose = pose;
-    const double near = plane ? reach : step.margin;
+    const double near = plane || isShort(a, b, reach - step.margin) ? reach : step.margin;
     watch.distance = touch(a.solid, b.solid, found.pose, near, watch.reach, found.manifold);
     watch.n = found.manifold.normal;
     ++narrowPhaseCalls;
-    const bool onTheWay = !plane && watch.distance > near && watch.distance <= reach &&
+    const bool onTheWay = watch.distance > near && watch.distance <= reach &&
                           watch.distance <= near + approach(a, b, b.R * watch.n);
     if (onTheWay) lookAlong(found.manifold, a, b, step);
     watch.count = found.manifold.count;
@@ -118,9 +131,30 @@ struct Collider::Impl {
     ++narrowPhaseCalls;
   }
 
+  // Pairs lie in the order that they were found in, and bodies in theirs: without this a look waits
+  // for memory most of the time.
+  void fetchAhead(std::size_t k) {
+    constexpr std::size_t kWatch = 16, kItems = 8, kLine = 64;
+    const std::vector<Pairs::Key>& keys = pairs.keys();
+    const auto fetch = [](const void* from, std::size_t bytes) {
+      for (std::size_t i = 0; i < bytes; i += kLine) {
+        __builtin_prefetch(static_cast<const char*>(from) + i);
+      }
+    };
+    if (k + kWatch < keys.size()) fetch(&pairs.watch(keys[k + kWatch]), sizeof(Watch));
+    if (k + kItems >= keys.size()) return;
+    const Watch& watch = pairs.watch(keys[k + kItems]);
+    fetch(&pairs.items()[watch.a], Item::kHot);
+    fetch(&pairs.items()[watch.b], Item::kHot);
+    fetch(&pairs.finding(keys[k + kItems]), sizeof(Relative));
+  }
+
   void lookAtAll(const Step& step) {
     std::size_t count = 0;
-    for (const Pairs::Key& key : pairs.keys()) {
+    const std::vector<Pairs::Key>& keys = pairs.keys();
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      fetchAhead(k);
+      const Pairs::Key& key = keys[k];
       Watch& watch = pairs.watch(key);
       const bool anew = look(watch, pairs.finding(key), step);
       if (watch.count == 0) continue;
@@ -129,6 +163,7 @@ struct Collider::Impl {
         manifolds.emplace_back();
       }
       if (anew || sources[count] != key.watch) manifolds[count] = pairs.finding(key).manifold;
+      manifolds[count].isNew = anew;
       sources[count++] = key.watch;
     }
     sources.resize(count);
@@ -157,13 +192,13 @@ std::span<const std::pair<BodyId, BodyId>> Collider::ignored() const {
 }
 
 std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<const Pose> end,
-                                         double margin) {
+                                         double margin, double slack) {
   require(margin >= 0, "collider: margin must not be negative");
   if (!impl_) return {};
   turnTo("broad_phase");
   impl_->pairs.update(start, end, margin);
   turnTo("narrow_phase");
-  impl_->lookAtAll({start, end, margin});
+  impl_->lookAtAll({start, end, margin, slack});
   turnTo("contact");
   return impl_->manifolds;
 }

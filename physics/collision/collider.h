@@ -34,6 +34,7 @@ struct Manifold {
   BodyId a = 0, b = 0;
   Vec3 normal = Vec3::UnitY();  // body frame of b, unit, from b towards a
   int count = 0;
+  bool isNew = true;  // false: as the last find() told it
   std::array<ContactPoint, kMaxPoints> points;
 };
 
@@ -55,9 +56,10 @@ class Collider {
   // [m] plus what the two bodies approach each other by. Where a body moves by more than it is
   // thick, the manifold is that of the first touch along the straight sweep (normal and points
   // taken there). The result is sorted by (a, b), deterministic, and valid until the next call. No
-  // allocation once the scene has settled.
+  // allocation once the scene has settled. Within a step: pairs that have moved by less than
+  // `slack` [m] against each other since they were found keep their manifold.
   std::span<const Manifold> find(std::span<const Pose> start, std::span<const Pose> end,
-                                 double margin);
+                                 double margin, double slack = 0);
 
   // True when one of `bodies`, moving from `start` to `end`, leaves the bounds that the last find()
   // looked in: contacts may be missing, call find() again.

@@ -21,8 +21,10 @@ struct Item {
   Vec3 move = Vec3::Zero();
   Vec3 x = Vec3::Zero();  // at the start
   Mat3 R = Mat3::Identity();
-  Pose from, to;          // the motion that find() was given
-  Solid solid;  // last: what is before it is read for each pair
+  Solid solid;
+  Pose from, to;  // the motion that find() was given
+
+  static constexpr std::size_t kHot = 256;  // bytes of it that are read for each pair
 };
 
 // Two items, and what is known of them since their last narrow phase.

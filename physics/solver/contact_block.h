@@ -40,12 +40,13 @@ struct Softness {
 struct alignas(32) ContactBlock {
   static constexpr int kLanes = 8, kPoints = 4;
   struct Point {
-    float armA[3][8], armB[3][8];                                  // from the centres [m]
-    float torqueA[3][8], torqueB[3][8], turnA[3][8], turnB[3][8];  // r x n, I^-1 (r x n)
-    float gap[8], lambda[8], inverse[8];                           // 1/A; 0: no such point
-    float open[8];   // max(c, 0), of the substep's end
-    float held[8];   // of lambda, what the spring carries without giving way
-    float lever[8];  // from the centre of friction
+    float torqueA[3][8], torqueB[3][8];  // r x n
+    // I^-1 (r x n). Until rows are prepared: the arms r, from the centres [m].
+    float turnA[3][8], turnB[3][8];
+    float gap[8], lambda[8], inverse[8];  // 1/A; 0: no such point
+    float open[8];                        // max(c, 0), of the substep's end
+    float held[8];                        // of lambda, what the spring carries without giving way
+    float lever[8];                       // from the centre of friction
   };
   struct Tangent {
     float d[3][8], torqueA[3][8], torqueB[3][8], turnA[3][8], turnB[3][8], lambda[8];

@@ -119,11 +119,9 @@ inline void prepareBlock(ContactBlock& m, const LaneMass* masses, float reach) {
   const Lanes3 n = load(m.n);
   Lanes3 centreA = {zero, zero, zero}, centreB = centreA;
   Lanes sum = tiny;
-  for (ContactBlock::Point& p : m.point) {
+  for (const ContactBlock::Point& p : m.point) {
     const Lanes exists = load(p.inverse);  // 1 or 0, from the host
-    const Lanes3 armA = load(p.armA), armB = load(p.armB);
-    const Lanes resistance = prepareRow(p, n, armA, armB, a, b);
-    store(p.inverse, wherePositive(resistance * exists, one / larger(resistance, tiny), zero));
+    const Lanes3 armA = load(p.turnA), armB = load(p.turnB);
     const Lanes near = larger(smaller(all(2) - load(p.gap) / all(reach), one), all(1e-3f));
     const Lanes weight = near * exists;
     centreA = centreA + armA * weight;
@@ -133,8 +131,11 @@ inline void prepareBlock(ContactBlock& m, const LaneMass* masses, float reach) {
   centreA = centreA * (one / sum);
   centreB = centreB * (one / sum);
   for (ContactBlock::Point& p : m.point) {
-    const Lanes3 off = load(p.armA) - centreA;
+    const Lanes exists = load(p.inverse);
+    const Lanes3 armA = load(p.turnA), armB = load(p.turnB), off = armA - centreA;
     store(p.lever, root(dot(off, off)));
+    const Lanes resistance = prepareRow(p, n, armA, armB, a, b);
+    store(p.inverse, wherePositive(resistance * exists, one / larger(resistance, tiny), zero));
   }
   prepareFriction(m, n, a, b, centreA, centreB);
 }

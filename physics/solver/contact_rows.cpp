@@ -29,7 +29,7 @@ void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
   constexpr int kColours = 64, kLists = 2 * kColours;
   const Bodies& b = w.bodies;
   batch.slots.assign(1, kWorldBody);
-  if (batch.contacts.empty()) return;
+  if (batch.contacts.empty()) return batch.blocks.clear();
   for (const BodyId i : batch.bodies) {
     slotOf[i] = static_cast<int>(batch.slots.size());
     batch.slots.push_back(i);
@@ -50,12 +50,18 @@ void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
     if (movesB) used[c.b] |= std::uint64_t{1} << colour;
     byColour[colour + (movesA && movesB ? 0 : kColours)].push_back(k);
   }
-  batch.blocks.clear();
+  const auto widthOf = [&](int list) -> std::size_t {
+    return list % kColours == kColours - 1 ? 1 : ContactBlock::kLanes;
+  };
+  std::size_t blocks = 0, next = 0;
   for (int list = 0; list < kLists; ++list) {
-    const bool oneByOne = list % kColours == kColours - 1;
-    const std::size_t width = oneByOne ? 1 : ContactBlock::kLanes;
+    blocks += (byColour[list].size() + widthOf(list) - 1) / widthOf(list);
+  }
+  batch.blocks.resize(blocks);
+  for (int list = 0; list < kLists; ++list) {
+    const std::size_t width = widthOf(list);
     for (std::size_t i = 0; i < byColour[list].size(); i += width) {
-      ContactBlock& block = batch.blocks.emplace_back();
+      ContactBlock& block = batch.blocks[next++];
       for (std::size_t l = 0; l < ContactBlock::kLanes; ++l) {
         const bool exists = l < width && i + l < byColour[list].size();
         block.contact[l] = exists ? byColour[list][i + l] : -1;
@@ -80,8 +86,8 @@ void emptyLane(ContactBlock& block, int l) {
 }
 
 void emptyPoint(ContactBlock::Point& p, int l) {
-  put(p.armA, l, Vec3::Zero());
-  put(p.armB, l, Vec3::Zero());
+  put(p.turnA, l, Vec3::Zero());
+  put(p.turnB, l, Vec3::Zero());
   p.gap[l] = 1;
   p.lambda[l] = p.held[l] = p.inverse[l] = 0;
 }
@@ -151,8 +157,8 @@ void SmallSteps::Impl::rows(World::Impl& w, Batch& batch, double h) {
         const Vec3 onA = rotationA * shape.coreA - shape.radiusA * n;  // from a's centre
         const Vec3 onB = rotationB * shape.coreB + shape.radiusB * n;  // from b's
         const Vec3 gap = apart + onA - onB, half = 0.5 * gap;
-        put(p.armA, l, onA - half);
-        put(p.armB, l, onB + half);
+        put(p.turnA, l, onA - half);
+        put(p.turnB, l, onB + half);
         p.gap[l] = static_cast<float>(gap.dot(n));
         p.lambda[l] = static_cast<float>(scale * c.lambda[k]);
         p.held[l] = static_cast<float>(h * h * held * c.held[k]);

@@ -5,15 +5,6 @@
 #include "physics/solver/small_steps_impl.h"
 
 namespace physics {
-namespace {
-
-// The end of a point or link that moves.
-BodyId moverOf(const SoftElement& element, const Bodies& bodies) {
-  return isMovable(bodies, element.from) ? element.from : element.to;
-}
-
-}  // namespace
-
 void SmallSteps::clear(Batch& batch) {
   batch.bodies.clear();
   batch.contacts.clear();
@@ -21,7 +12,6 @@ void SmallSteps::clear(Batch& batch) {
   batch.deformables.clear();
   batch.softPairs.clear();
   batch.soft.clear();
-  batch.blocks.clear();
   batch.motions.clear();
   batch.masses.clear();
   batch.slots.clear();
@@ -33,6 +23,7 @@ void SmallSteps::Impl::learn(World::Impl& w) {
   makeRoom(w.bodies.pose.size());
   if (known && articulationOf.size() == w.bodies.pose.size()) return;
   known = true;
+  for (BodyId i = 0; i < w.bodies.size(); ++i) radius[i] = boundingRadius(w.bodies.shape[i]);
   const Islands& joined = jointIslands(w);
   std::vector<std::vector<Articulation::Ref>> rows(joined.size());
   std::vector<BodyId> roots;
@@ -79,38 +70,84 @@ SmallSteps::Batch& SmallSteps::Impl::batchFor(int count, int sweepCount) {
   return batch;
 }
 
-// Islands by constraints and contacts, and the batch that each steps with.
+// The end of a point or link that moves.
+BodyId SmallSteps::Impl::softMoverOf(const World::Impl& w, const SoftPair& pair) const {
+  const SoftElement& element = w.softCollider.element(pair.element);
+  return isMovable(w.bodies, element.from) ? element.from : element.to;
+}
+
+void SmallSteps::Impl::joinSoft(const World::Impl& w, const SoftPair& pair) {
+  const SoftElement& element = w.softCollider.element(pair.element);
+  join(w.bodies, islands, element.from, element.to);
+  join(w.bodies, islands, softMoverOf(w, pair), pair.body);
+}
+
+bool SmallSteps::Impl::softStepsNow(const World::Impl& w, const SoftPair& pair) const {
+  return steps[softMoverOf(w, pair)] && (!isMovable(w.bodies, pair.body) || steps[pair.body]);
+}
+
+// Of those that step now: islands by constraints and contacts, and the batch that each steps with.
 void SmallSteps::Impl::divide(World::Impl& w) {
   const Bodies& b = w.bodies;
-  islands = jointIslands(w);
-  for (const KeptContact& c : contacts) join(b, islands, c.a, c.b);
-  for (const SoftPair& pair : softPairs) {
-    const SoftElement& element = w.softCollider.element(pair.element);
-    join(b, islands, element.from, element.to);
-    join(b, islands, moverOf(element, b), pair.body);
-  }
-  settle(islands, b.active);
+  const auto bodyOf = [&](const KeptContact& c) { return isMovable(b, c.a) ? c.a : c.b; };
+  const auto waits = [&](BodyId i) { return isMovable(b, i) && !steps[i]; };
+  const auto stepsNow = [&](const KeptContact& c) { return !waits(c.a) && !waits(c.b); };
+  stepping.clear();
   for (const BodyId i : b.active) {
+    if (steps[i]) stepping.push_back(i);
+  }
+  islands = jointIslands(w);
+  for (const KeptContact& c : contacts) {
+    if (stepsNow(c)) join(b, islands, c.a, c.b);
+  }
+  for (const SoftPair& pair : softPairs) {
+    if (softStepsNow(w, pair)) joinSoft(w, pair);
+  }
+  settle(islands, stepping);
+  for (const BodyId i : stepping) {
     batchOf[i] = -1;
     energy[i] = 0;  // bodies of the island that something holds
     substeps[i] = std::max(1, w.settings.substeps);
     sweeps[i] = 1;
   }
-  for (const BodyId i : b.active) {
+  for (const BodyId i : stepping) {
     const BodyId root = islands[i];
     substeps[root] = std::max(substeps[root], asked[i]);
     sweeps[root] = std::max(sweeps[root], askedSweeps[i]);
     if (articulationOf[i] >= 0 || deformableOf[i] >= 0) energy[root] = 1;
   }
   for (const KeptContact& c : contacts) {
-    energy[islands[isMovable(b, c.a) ? c.a : c.b]] = 1;
+    if (stepsNow(c)) energy[islands[bodyOf(c)]] = 1;
   }
   for (const SoftPair& pair : softPairs) {
-    energy[islands[moverOf(w.softCollider.element(pair.element), b)]] = 1;
+    if (softStepsNow(w, pair)) energy[islands[softMoverOf(w, pair)]] = 1;
   }
+  assign();
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (!stepsNow(contacts[k])) continue;
+    batches[batchOf[bodyOf(contacts[k])]].contacts.push_back(static_cast<int>(k));
+  }
+  assignSoft(w);
+}
+
+// Contacts of points and links to the batch of their island; those that wait stay with the world.
+void SmallSteps::Impl::assignSoft(World::Impl& w) {
+  for (const SoftPair& pair : softPairs) {
+    if (softStepsNow(w, pair)) batches[batchOf[softMoverOf(w, pair)]].softPairs.push_back(pair);
+  }
+  std::erase_if(w.softContacts, [&](const SoftContact& c) {
+    const BodyId body = isMovable(w.bodies, c.from) ? c.from : c.to;
+    if (!steps[body]) return false;
+    if (batchOf[body] >= 0) batches[batchOf[body]].soft.push_back(c);
+    return true;
+  });
+}
+
+// Bodies to the batch of their island.
+void SmallSteps::Impl::assign() {
   batchCount = 0;
   free.clear();
-  for (const BodyId i : b.active) {
+  for (const BodyId i : stepping) {
     const BodyId root = islands[i];
     if (energy[root] == 0) {
       free.push_back(i);
@@ -130,18 +167,6 @@ void SmallSteps::Impl::divide(World::Impl& w) {
     if (deformable >= 0 && deformables[deformable].bodies().front() == i) {
       batches[batchOf[i]].deformables.push_back(deformable);
     }
-  }
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const BodyId body = isMovable(b, contacts[k].a) ? contacts[k].a : contacts[k].b;
-    batches[batchOf[body]].contacts.push_back(static_cast<int>(k));
-  }
-  for (const SoftPair& pair : softPairs) {
-    const BodyId mover = moverOf(w.softCollider.element(pair.element), b);
-    batches[batchOf[mover]].softPairs.push_back(pair);
-  }
-  for (const SoftContact& c : w.softContacts) {
-    const BodyId body = isMovable(b, c.from) ? c.from : c.to;
-    if (batchOf[body] >= 0) batches[batchOf[body]].soft.push_back(c);
   }
 }
 

@@ -69,14 +69,16 @@ void keep(std::span<const KeptContact> previous, std::span<const Manifold> found
   now.resize(found.size());
   std::size_t old = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    KeptContact& fresh = now[i];
-    take(found[i], bodies, fresh);
-    while (old < previous.size() &&
-           (previous[old].a != fresh.a ? previous[old].a < fresh.a : previous[old].b < fresh.b)) {
-      ++old;
+    const Manifold& m = found[i];
+    const auto isBefore = [&](const KeptContact& c) { return c.a != m.a ? c.a < m.a : c.b < m.b; };
+    while (old < previous.size() && isBefore(previous[old])) ++old;
+    const bool goesOn = old < previous.size() && previous[old].a == m.a && previous[old].b == m.b;
+    if (goesOn && !m.isNew && previous[old].carried) {
+      now[i] = previous[old];
+      continue;
     }
-    if (old == previous.size()) continue;
-    if (previous[old].a == fresh.a && previous[old].b == fresh.b) match(previous[old], fresh);
+    take(m, bodies, now[i]);
+    if (goesOn) match(previous[old], now[i]);
   }
 }
 

@@ -4,7 +4,9 @@
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds
 //   bounce.cpp        restitution
-//   small_steps.cpp   the step, and how many substeps it takes
+//   look.cpp          the contacts of a step, and which islands look for them twice
+//   ask.cpp           how many substeps and sweeps the next step takes
+//   small_steps.cpp   the step
 #pragma once
 
 #include <algorithm>
@@ -45,21 +47,33 @@ struct SmallSteps::Impl {
   std::vector<Batch> batches;
   std::size_t batchCount = 0;
   Islands islands;
+  std::vector<char> halved, steps;                   // by body: made half of its step; steps now
+  std::vector<BodyId> stepping;                      // those that step now
   std::vector<int> batchOf, slotOf;                  // by body
   std::vector<std::uint64_t> colours, coloursFixed;  // by body: taken by its contacts
   std::vector<std::vector<int>> byColour;
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;
   std::vector<Mat3> stiffness;
-  std::vector<double> load, sag, energy, change;  // by body (of islands by their first)
+  std::vector<double> radius;                                     // by body, of its shape
+  std::vector<double> load, sag, energy, change, travel, weight;  // by body (island: by its first)
 
   void learn(World::Impl& w);
   void makeRoom(std::size_t bodies);
-  bool look(World::Impl& w, double dt);
-  bool closesBy(const World::Impl& w, double dt, double far);
+  void look(World::Impl& w, bool again);
+  bool lookOnce(World::Impl& w, bool again);
+  bool chooseFast(World::Impl& w);
+  bool chooseMet(World::Impl& w);
+  bool choose(const World::Impl& w, int parts);
+  void spread(World::Impl& w);
   void divide(World::Impl& w);
+  void assign();
   Batch& batchFor(int substeps, int sweeps);
   void layOut(World::Impl& w, Batch& batch);
+  BodyId softMoverOf(const World::Impl& w, const SoftPair& pair) const;
+  void joinSoft(const World::Impl& w, const SoftPair& pair);
+  bool softStepsNow(const World::Impl& w, const SoftPair& pair) const;
+  void assignSoft(World::Impl& w);
   bool lookSoft(World::Impl& w);
   void gatherSoft(World::Impl& w);
   void lookAgain(World::Impl& w, Batch& batch, double h);
@@ -74,9 +88,13 @@ struct SmallSteps::Impl {
   void sweepDeformables(World::Impl& w, Batch& batch, double h);
   void substep(World::Impl& w, Batch& batch, double h, StepReport& report);
   void takeOver(Batch& batch, double h);
-  void askSoft(World::Impl& w, Batch& batch);
-  void ask(World::Impl& w, Batch& batch, double h);
+  void weighMotion(const World::Impl& w, const Batch& batch, double h);
+  void weighContacts(const World::Impl& w, const Batch& batch);
+  void askSoft(const World::Impl& w, const Batch& batch);
+  void askDeformables(World::Impl& w, const Batch& batch, double h);
+  void ask(World::Impl& w, const Batch& batch, double h);
   void fly(World::Impl& w, double dt);
+  void advancePart(World::Impl& w, int parts, StepReport& report);
   void advance(World::Impl& w, StepReport& report);
   void learnLoads(World::Impl& w);
   bool fresh = true;  // nothing has stepped yet, or the state came from elsewhere

@@ -103,6 +103,43 @@ TEST(SmallSteps, IslandsDoNotKnowOfEachOther) {
   for (int k = 0; k < 6; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
 }
 
+// Neither where the other has to look for its contacts twice in a step.
+TEST(SmallSteps, AFastPairElsewhereDoesNotMoveAByte) {
+  const auto build = [](World& world, bool withNeighbour) {
+    addGround(world);
+    const BodyId first = addStack(world, 4);
+    world.setVelocity(first + 3, {Vec3(0.5, 0, 0.3), Vec3(0, 1, 0)});
+    if (withNeighbour) {
+      const BodyId box = addBody(world, Box{Vec3(1, 1, 1)}, Vec3(40, 3, 0), 1);
+      world.setVelocity(box, {Vec3(3, -20, 0), Vec3(1, 2, 3)});
+    }
+    return first;
+  };
+  World alone(byDefault()), accompanied(byDefault());
+  const BodyId i = build(alone, false), j = build(accompanied, true);
+  run(alone, 120);
+  run(accompanied, 120);
+  for (int k = 0; k < 4; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
+}
+
+// What a hit sets in motion meets what stood beside it within the same step.
+TEST(SmallSteps, AFastHitIsPassedOnWithinTheStep) {
+  Settings settings = byDefault();
+  settings.gravity.reset();
+  World world(settings);
+  const BodyId first = addBody(world, Sphere{0.5}, Vec3(0, 0, 0), 1);
+  addBody(world, Sphere{0.5}, Vec3(1.1, 0, 0), 1);
+  const BodyId last = addBody(world, Sphere{0.5}, Vec3(2.2, 0, 0), 1);
+  world.setVelocity(first, {Vec3(30, 0, 0), Vec3::Zero()});
+  double overlap = 0;
+  for (int k = 0; k < 10; ++k) {
+    world.step();
+    overlap = std::max(overlap, world.largestOverlap());
+  }
+  EXPECT_GT(world.bodies().velocity[last].v.x(), 5);
+  EXPECT_LT(overlap, 0.02);
+}
+
 TEST(SmallSteps, AFreeBodyFliesAlongTheParabola) {
   World world(byDefault());
   BodyDef def;
@@ -179,7 +216,7 @@ TEST(ContactKernels, GiveTheSameBytesInHalvesAndInOne) {
     start.scale[l] = 0.9f, start.rate[l] = 0.2f;
     start.staticFriction[l] = 0.6f, start.dynamicFriction[l] = 0.5f;
     for (auto& p : start.point) {
-      for (int k = 0; k < 3; ++k) p.armA[k][l] = next(), p.armB[k][l] = next();
+      for (int k = 0; k < 3; ++k) p.turnA[k][l] = next(), p.turnB[k][l] = next();
       p.gap[l] = 0.01f * next(), p.lambda[l] = 0.01f * (0.5f + next()), p.inverse[l] = 1;
     }
   }
