@@ -1,18 +1,19 @@
 // Bodies that constraints and forces join, solved as one block: all rows together, by a sparse
 // factor L D L^T of
 //   A = J M^-1 J^T + alpha                                                                     (42)
-// in blocks of three, in an order that has no fill for chains and trees. Forces are rows as well: a
-// push f that falls off by K is the constraint  J u + K^-1 lambda = K^-1 f, so that what is stiff
-// is solved together, whatever its kind. What has bounds is free within them, and else held at one.
-//   position   c(X + u) + alpha lambda = 0      Newton, the factor kept for the second step
+// in blocks, in an order that has no fill for chains and trees. Forces are rows as well: a push f
+// that falls off by K is the constraint  J u + K^-1 lambda = K^-1 f, so that what is stiff is
+// solved together, whatever its kind. What has bounds is free within them, and else held at one.
+//   position   c(X + u) + alpha lambda = 0      Newton, the factor kept for the next steps
 //   velocity   J u = 0 for what holds; forces and what gives way have no error to take back
-// u, lambda: displacements of a substep, impulses times the step.
+// u, lambda: displacements of a substep, impulses times the step. Articulations of equal topology
+// step side by side, one to a lane; what is done in one knows nothing of the others.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "physics/kinds.h"
+#include "physics/solver/joint_topology.h"
 
 namespace physics {
 
@@ -27,103 +28,118 @@ struct JointMass {
   Mat3 inertia = Mat3::Zero();  // world, inverse
 };
 
-struct JointRow {
-  static constexpr int kMostBodies = 2, kMostRows = 3;
-  enum class Role : char { kConstraint, kForce, kLoad };  // a load does not change with X
-  int kind = 0, item = 0;                                 // in Kinds, in its set
-  int bodyCount = 0, rows = 0;
-  std::array<BodyId, kMostBodies> bodies{};
-  Role role = Role::kConstraint;
-  bool active = true;                     // it has anything to say at this pose
-  bool free = true;                       // lambda is solved for; else it is held at a bound
-  bool pulls = false;                     // it has anchors, and so geometric stiffness
-  double regularisation = 0, yields = 0;  // epsilon, and alpha = epsilon A of it (54)
-  double low = 0, high = 0, longest = 0;  // bounds of the total
-  Vec3 c = Vec3::Zero(), lambda = Vec3::Zero(), left = Vec3::Zero();
-  Vec3 evaluatedAt = Vec3::Zero();  // J u there
-  Mat3 alpha = Mat3::Zero();
-  // J, and M^-1 J^T. Most linear parts are plus or minus one, or nothing, and are not multiplied
-  // by.
-  enum class Part : char { kNone, kPlus, kMinus, kFull };
-  std::array<Part, kMostBodies> linearPart{}, angularPart{};
-  std::array<Mat3, kMostBodies> linear, angular, responseLinear, responseAngular;
-  std::array<double, kMostBodies> inverseMass{};
-  std::array<Vec3, kMostBodies> arm;  // world, where it pulls
-};
-
 class Articulation {
  public:
-  struct Ref {
-    int kind, item;
-  };
-  // `rows` in the table's order; `masses` by BodyId tell which bodies move.
-  Articulation(const std::vector<Ref>& rows, const Kinds& kinds,
-               std::span<const InverseMass> masses);
+  // `refs` in the table's order; `masses` by BodyId tell which bodies move.
+  Articulation(std::span<const JointRef> refs, const Kinds& kinds,
+               std::span<const InverseMass> masses, JointTopologies& known);
 
   std::span<const BodyId> bodies() const { return bodies_; }
-  std::size_t size() const { return rows_.size(); }
-
-  // Adds the geometric stiffness of what it pulled with in the last substep, by BodyId.
-  void stiffen(std::span<const Pose> pose, std::span<Mat3> stiffness) const;
-
-  // Evaluates all rows, and solves for positions: `first` begins a substep of dt.
-  void solvePositions(Kinds& kinds, const Configuration& at, bool first,
-                      std::span<const JointMass> masses, std::span<Displacement> moved);
-  // Before the first of these, where errors are taken back by at most so much [m, rad].
-  void leave(Kinds& kinds, const Configuration& at, double most);
-  // Evaluates at the end of the substep; then, as often as contacts are swept:
-  void prepareVelocities(Kinds& kinds, const Configuration& at, std::span<const JointMass> masses);
-  void solveVelocities(std::span<const JointMass> masses, std::span<Displacement> moved);
-  // What it pulled with in the last substep.
-  void forget();
-  // Writes the multipliers back to the kinds' sets.
-  void finish(Kinds& kinds, double dt) const;
+  std::size_t size() const { return refs_.size(); }
+  void forget();  // what it pulled with in the last substep
 
  private:
-  struct Column {
-    std::vector<int> to, block;              // below the diagonal, in the order of elimination
-    std::vector<std::array<int, 3>> update;  // to[p], to[q], block or -1 for the diagonal
+  template <int W>
+  friend class JointPack;
+  friend class JointPacks;
+  struct Pull {  // of a row, in its last substep
+    Vec3 lambda = Vec3::Zero();
+    std::array<Vec3, JointRow::kMostBodies> arm{Vec3::Zero(), Vec3::Zero()};
+    std::array<Mat3, JointRow::kMostBodies> linear{Mat3::Zero(), Mat3::Zero()};  // but of gaps
   };
-  struct Coupling {
-    int block, later, laterBody, earlier, earlierBody;
-  };
-  void respond(JointRow& row, std::span<const JointMass> masses);
-  // The parts of columns_ and couplings_ whose rows are free.
-  struct Pattern {
-    std::vector<char> free;
-    std::vector<int> rows;
-    std::vector<int> start;                 // per row of `rows`, into below; one more at the end
-    std::vector<std::array<int, 2>> below;  // to, block
-    std::vector<int> updateStart;
-    std::vector<std::array<int, 3>> update;  // scaled block, block, target: -1 - row, or a block
-    std::vector<Coupling> couplings;
-    std::vector<int> blocks;  // used
-  };
-  void lay(Pattern& pattern) const;
-  const Pattern& pattern();  // of the rows that are free now
-  void factorize(std::span<const JointMass> masses);
-  void substitute();
-  void begin(std::span<const JointMass> masses, std::span<Displacement> moved);
-  void chooseFree();
-  Vec3 along(const JointRow& row, std::span<const Displacement> moved) const;
-  void give(const JointRow& row, const Vec3& change, std::span<Displacement> moved) const;
-  void apply(std::span<Displacement> moved);
-  bool holdAtBounds(std::span<Displacement> moved);
-  void evaluate(Kinds& kinds, const Configuration& at, bool all);
-
-  std::vector<JointRow> rows_;       // in the order of elimination
-  std::vector<BodyId> bodies_;       // those that move, sorted
-  std::array<Pattern, 6> patterns_;  // those of late
-  int nextPattern_ = 0;
-  const Pattern* now_ = nullptr;  // the one that the factor is of
-  std::vector<Column> columns_;
-  std::vector<Coupling> couplings_;
-  std::vector<Mat3> blocks_, scaled_, diagonal_, inverse_;
-  std::vector<Vec3> right_;
-  bool stale_ = true;  // the factor is of other free rows
+  std::shared_ptr<const JointTopology> topology_;
+  std::vector<JointRef> refs_;  // in the order of elimination
+  std::vector<JointKind> kinds_;
+  std::vector<BodyId> all_;     // bodies of its rows, sorted
+  std::vector<BodyId> bodies_;  // those of them that move
+  std::vector<Pull> pulls_;     // by row
 };
 
-// One row, evaluated by its kind.
-void evaluateRow(const Kinds& kinds, const Configuration& at, JointRow& row);
+// What a stage of a substep works on, by BodyId.
+struct JointStage {
+  Kinds& kinds;
+  std::span<Pose> pose;         // trial poses stand here while rows are evaluated
+  std::span<const Pose> start;  // of the substep
+  double h;
+  std::span<const JointMass> masses;
+  std::span<Displacement> moved;
+};
+
+// Up to W articulations of equal topology, side by side.
+template <int W>
+class JointPack {
+ public:
+  void take(std::span<Articulation* const> articulations);
+  void stiffen(std::span<Mat3> stiffness) const;
+  void leave(const JointStage& stage, double most);
+  void solvePositions(const JointStage& stage, bool first);
+  void closePositions(const JointStage& stage);
+  void prepareVelocities(const JointStage& stage);
+  void solveVelocities(const JointStage& stage);
+  void finish(Kinds& kinds, double h);
+
+ private:
+  struct State {  // of a row that its kind evaluates, by lane
+    std::array<JointRow::Role, W> role{};
+    std::array<bool, W> active{};
+  };
+  JointView<W> view();
+  void place();
+  void restorePoses(const JointStage& stage) const;
+  void seeOthers(const JointStage& stage, bool all);
+  void openAll();
+  void see(const JointStage& stage, bool all);
+  void noteSeen();
+  bool step(bool untilClosed);
+  void begin();
+  void chooseFree();
+  void setFree(int row, int lane, bool free);
+  void factorize();
+  void factorizeStale();
+  bool holdAtBounds();
+  void findUsed();
+  void takePulls();
+  bool givesWay(int row, int lane) const;
+
+  int lanes_ = 0;
+  std::array<Articulation*, W> of_{};
+  std::vector<BodyId> ids_;  // of each lane, body after body
+  std::shared_ptr<const JointTopology> topology_;
+  std::vector<JointBody<W>> bodies_;
+  std::vector<JointLanes<W>> rows_;
+  std::vector<JointBlock<W>> blocks_;
+  std::vector<State> states_;  // by row
+  Num<W> open_{};
+  std::vector<char> used_;
+  std::vector<int> usedBelow_, usedCounts_;
+  std::array<bool, W> stale_{};  // the factor is of other free rows
+  bool seenSince_ = true;        // J is not that of the factor any more
+  std::vector<JointFactor<W>> keptFactors_;
+  std::vector<JointBlock<W>> keptBlocks_;
+};
+
+// The articulations of a batch.
+class JointPacks {
+ public:
+  void take(std::span<Articulation> articulations, std::span<const int> which);
+  void stiffen(std::span<Mat3> stiffness) const;  // adds what joints pull with, by BodyId
+  // Before the first solve of a substep, where errors are taken back by at most so much [m, rad].
+  void leave(const JointStage& stage, double most);
+  // Evaluates the rows, and solves for positions: `first` begins a substep.
+  void solvePositions(const JointStage& stage, bool first);
+  void closePositions(const JointStage& stage);  // as often as it takes
+  // Evaluates at the end of the substep; then, as often as contacts are swept:
+  void prepareVelocities(const JointStage& stage);
+  void solveVelocities(const JointStage& stage);
+  void finish(Kinds& kinds, double h);  // multipliers back to the kinds' sets
+
+ private:
+  template <class F>
+  void forEach(F&& f);
+  std::vector<JointPack<1>> ones_;
+  std::vector<JointPack<4>> fours_;
+  std::size_t oneCount_ = 0, fourCount_ = 0;
+  std::vector<std::vector<Articulation*>> byTopology_;
+};
 
 }  // namespace physics

@@ -10,7 +10,7 @@
 namespace physics {
 
 using namespace swept;
-Mesh meshOf(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
+Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
             std::span<const InverseMass> masses) {
   Mesh mesh;
   std::map<BodyId, int> place;
@@ -18,7 +18,7 @@ Mesh meshOf(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
   int kindPlace = 0;
   forEachKind(kinds, [&](const auto& kind) {
     using C = typename std::decay_t<decltype(kind)>::Item;
-    for (const Articulation::Ref& ref : refs) {
+    for (const JointRef& ref : refs) {
       if (ref.kind != kindPlace) continue;
       const auto& bodies = kind.set.items[ref.item].bodies;
       mesh.points = mesh.points || (C::kBodies != 1 && !isAngular<C>());
@@ -50,13 +50,13 @@ Mesh meshOf(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
   return mesh;
 }
 
-Deformable::Deformable(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
+Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
                        std::span<const InverseMass> masses, bool direct) {
   int place = 0;
   size_ = refs.size();
   forEachKind(kinds, [&](const auto& kind) {
     using C = typename std::decay_t<decltype(kind)>::Item;
-    for (const Articulation::Ref& ref : refs) {
+    for (const JointRef& ref : refs) {
       if (ref.kind != place) continue;
       std::get<std::vector<SweptRow<C>>>(rows_).emplace_back().item = ref.item;
       for (const BodyId body : kind.set.items[ref.item].bodies) {

@@ -25,7 +25,7 @@ struct Mesh {
   bool points = false;
   double fill = 0;
 };
-Mesh meshOf(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
+Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
             std::span<const InverseMass> masses);
 // Of a factor worth having: a net of 10 by 10 points has 100.
 inline constexpr double kMostFill = 100;
@@ -46,7 +46,7 @@ struct MeshFactor {
 class Deformable {
  public:
   // `refs`: its constraints, in the table's order.
-  Deformable(const std::vector<Articulation::Ref>& refs, const Kinds& kinds,
+  Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
              std::span<const InverseMass> masses, bool direct);
 
   std::span<const BodyId> bodies() const { return bodies_; }

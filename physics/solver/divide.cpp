@@ -25,7 +25,7 @@ void SmallSteps::Impl::learn(World::Impl& w) {
   known = true;
   for (BodyId i = 0; i < w.bodies.size(); ++i) radius[i] = boundingRadius(w.bodies.shape[i]);
   const Islands& joined = jointIslands(w);
-  std::vector<std::vector<Articulation::Ref>> rows(joined.size());
+  std::vector<std::vector<JointRef>> rows(joined.size());
   std::vector<BodyId> roots;
   int place = 0;
   forEachKind(w.kinds, [&](const auto& kind) {
@@ -41,6 +41,7 @@ void SmallSteps::Impl::learn(World::Impl& w) {
   std::sort(roots.begin(), roots.end());
   articulations.clear();
   deformables.clear();
+  topologies.clear();
   articulationOf.assign(w.bodies.pose.size(), -1);
   deformableOf.assign(w.bodies.pose.size(), -1);
   for (const BodyId root : roots) {
@@ -48,12 +49,14 @@ void SmallSteps::Impl::learn(World::Impl& w) {
     const bool isDirect = mesh.fill <= kMostFill;
     if (mesh.points || !isDirect) {
       deformables.emplace_back(rows[root], w.kinds, w.bodies.inverse, isDirect);
-      for (const BodyId i : deformables.back().bodies())
+      for (const BodyId i : deformables.back().bodies()) {
         deformableOf[i] = static_cast<int>(deformables.size()) - 1;
+      }
     } else {
-      articulations.emplace_back(rows[root], w.kinds, w.bodies.inverse);
-      for (const BodyId i : articulations.back().bodies())
+      articulations.emplace_back(rows[root], w.kinds, w.bodies.inverse, topologies);
+      for (const BodyId i : articulations.back().bodies()) {
         articulationOf[i] = static_cast<int>(articulations.size()) - 1;
+      }
     }
   }
 }

@@ -57,6 +57,8 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   lanesBefore.resize(bodies);
   stiffness.resize(bodies, Mat3::Zero());
   radius.resize(bodies);
+  inertias.resize(bodies);
+  spins.resize(bodies);
   load.resize(bodies);
   sag.resize(bodies);
   energy.resize(bodies);
@@ -78,8 +80,9 @@ void SmallSteps::Impl::advancePart(World::Impl& w, int parts, StepReport& report
     const double h = dt / count;
     report.substeps = std::max(report.substeps, parts * count);
     layOut(w, batch);
+    batch.joints.take(articulations, batch.articulations);
     for (int i = 0; i < count; ++i) {
-      predict(w, batch, h);
+      predict(w, batch, h, i == 0);
       if (i == 0 && !batch.blocks.empty()) rows(w, batch, h);
       lookAgain(w, batch, h);
       noteApproach(w, batch, h);
@@ -87,7 +90,7 @@ void SmallSteps::Impl::advancePart(World::Impl& w, int parts, StepReport& report
     }
     takeOver(batch, h);
     ask(w, batch, h);
-    for (const int a : batch.articulations) articulations[a].finish(w.kinds, h);
+    batch.joints.finish(w.kinds, h);
     for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
     report.work.moves += static_cast<std::int64_t>(batch.bodies.size()) * count;
   }

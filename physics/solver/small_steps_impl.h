@@ -26,6 +26,7 @@ struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
+  JointPacks joints;                // of these articulations
   std::vector<SoftPair> softPairs;  // what points and links may meet in this step
   std::vector<SoftContact> soft, softBefore;
   std::vector<SoftRow> softRows;
@@ -34,11 +35,17 @@ struct SmallSteps::Batch {
   std::vector<LaneMotion> motions;  // by slot; 0 is what does not move
   std::vector<LaneMass> masses;
   std::vector<BodyId> slots;  // the body of each slot
+
+  // More than contacts of rigid bodies.
+  bool isMixed() const {
+    return !articulations.empty() || !deformables.empty() || !softRows.empty();
+  }
 };
 
 struct SmallSteps::Impl {
   std::vector<KeptContact> contacts, before;
   std::vector<Articulation> articulations;
+  JointTopologies topologies;
   std::vector<Deformable> deformables;
   std::vector<int> articulationOf, deformableOf;  // by body, -1: none
   bool known = false;                             // these are those of the world's constraints
@@ -55,7 +62,9 @@ struct SmallSteps::Impl {
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;
   std::vector<Mat3> stiffness;
-  std::vector<double> radius;                                     // by body, of its shape
+  std::vector<Mat3> inertias;  // world, at X^t, and the turn without joints and contacts: of those
+  std::vector<Vec3> spins;     // whose inertia turns with them
+  std::vector<double> radius;  // by body, of its shape
   std::vector<double> load, sag, energy, change, travel, weight;  // by body (island: by its first)
 
   void learn(World::Impl& w);
@@ -77,7 +86,7 @@ struct SmallSteps::Impl {
   bool lookSoft(World::Impl& w);
   void gatherSoft(World::Impl& w);
   void lookAgain(World::Impl& w, Batch& batch, double h);
-  void predict(World::Impl& w, Batch& batch, double h);
+  void predict(World::Impl& w, Batch& batch, double h, bool first);
   void toLanes(Batch& batch);
   void fromLanes(Batch& batch);
   void displaceAll(World::Impl& w, Batch& batch, double h);
@@ -85,7 +94,10 @@ struct SmallSteps::Impl {
   static void forEachLane(const Batch& batch, F&& f);
   void noteApproach(World::Impl& w, Batch& batch, double h);
   void bounce(World::Impl& w, Batch& batch, double h);
+  void solvePositions(World::Impl& w, Batch& batch, double h);
   void sweepDeformables(World::Impl& w, Batch& batch, double h);
+  void solveVelocities(World::Impl& w, Batch& batch, double h);
+  void sweepSoft(Batch& batch);
   void substep(World::Impl& w, Batch& batch, double h, StepReport& report);
   void takeOver(Batch& batch, double h);
   void weighMotion(const World::Impl& w, const Batch& batch, double h);

@@ -15,20 +15,20 @@ Vec3 meanSpin(const Mat3& inertia, const Mat3& inverse, const Vec3& omega, doubl
   return omega - 0.5 * h * (inverse * omega.cross(inertia * omega));
 }
 
-Mat3 worldInertia(const Pose& pose, const Vec3& principal) {
-  const Mat3 r = pose.q.toRotationMatrix();
-  return r * principal.asDiagonal() * r.transpose();
+Mat3 worldInertia(const Mat3& r, const Vec3& principal) {
+  const Mat3 scaled = r * principal.asDiagonal();
+  return scaled * r.transpose();
 }
 
 }  // namespace
 
 // u = h v + h^2 M^-1 f, with the inertia at X^t and, where joints pull, their geometric stiffness.
-void SmallSteps::Impl::predict(World::Impl& w, Batch& batch, double h) {
+void SmallSteps::Impl::predict(World::Impl& w, Batch& batch, double h, bool first) {
   Bodies& b = w.bodies;
   for (const int k : batch.articulations) {
     for (const BodyId i : articulations[k].bodies()) stiffness[i].setZero();
-    articulations[k].stiffen(b.pose, stiffness);
   }
+  batch.joints.stiffen(stiffness);
   for (const BodyId i : batch.bodies) {
     Displacement& m = moved[i];
     Velocity& v = b.velocity[i];
@@ -48,8 +48,9 @@ void SmallSteps::Impl::predict(World::Impl& w, Batch& batch, double h) {
       continue;
     }
     const bool isRound = isIsotropic(b.inertia[i]);
-    const Mat3 inverse = isRound ? Mat3(b.inverseInertia[i].x() * Mat3::Identity())
-                                 : worldInertia(b.pose[i], b.inverseInertia[i]);
+    const Mat3 r = isRound ? Mat3::Identity() : b.pose[i].q.toRotationMatrix();
+    // After the first substep it stands there: of the pose that the last one ended with.
+    const Mat3 inverse = !first ? masses[i].inertia : worldInertia(r, b.inverseInertia[i]);
     v.w += h * (inverse * w.loads[i].torque);
     masses[i].inertia = inverse;
     Vec3 omega = v.w;
@@ -57,10 +58,11 @@ void SmallSteps::Impl::predict(World::Impl& w, Batch& batch, double h) {
       m.theta = h * omega;
       continue;
     }
-    const Mat3 inertia =
-        isRound ? Mat3(b.inertia[i].x() * Mat3::Identity()) : worldInertia(b.pose[i], b.inertia[i]);
+    const Mat3 inertia = worldInertia(r, b.inertia[i]);
     if (!isRound) omega = meanSpin(inertia, inverse, omega, h);
     m.theta = h * omega;
+    inertias[i] = inertia;
+    spins[i] = m.theta;
     if (articulationOf[i] >= 0 && !stiffness[i].isZero(0)) {
       masses[i].inertia = (inertia + stiffness[i]).inverse();
     }
@@ -98,11 +100,9 @@ void SmallSteps::Impl::displaceAll(World::Impl& w, Batch& batch, double h) {
       }
       continue;
     }
-    const Mat3 inertia = worldInertia(b.start[i], b.inertia[i]);
-    const Mat3 inverse = worldInertia(b.start[i], b.inverseInertia[i]);
-    const Vec3 given = m.theta - h * meanSpin(inertia, inverse, b.velocity[i].w, h);
-    const Vec3 momentum = inertia * (h * b.velocity[i].w + given);
-    masses[i].inertia = worldInertia(b.pose[i], b.inverseInertia[i]);
+    const Vec3 given = m.theta - spins[i];
+    const Vec3 momentum = inertias[i] * (h * b.velocity[i].w + given);
+    masses[i].inertia = worldInertia(b.pose[i].q.toRotationMatrix(), b.inverseInertia[i]);
     m.theta = masses[i].inertia * momentum;
   }
   for (std::size_t s = 1; s < batch.slots.size(); ++s) {
@@ -145,82 +145,77 @@ void SmallSteps::Impl::sweepDeformables(World::Impl& w, Batch& batch, double h) 
   }
 }
 
-void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepReport& report) {
-  Bodies& b = w.bodies;
-  const ContactKernels& kernels = contactKernels();
-  ContactBlock* blocks = batch.blocks.data();
+// Joints, contacts, joints: the last ones leave contacts open by little, and joints not at all.
+void SmallSteps::Impl::solvePositions(World::Impl& w, Batch& batch, double h) {
+  const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
   const int count = static_cast<int>(batch.blocks.size());
-  const auto joints = [&](bool first) {
-    for (const int k : batch.articulations) {
-      for (const BodyId i : articulations[k].bodies()) {
-        b.pose[i] = b.start[i];
-        displace(b.pose[i], moved[i].u, moved[i].theta);
-      }
-      articulations[k].solvePositions(w.kinds, {b.pose, b.start, h}, first, masses, moved);
-    }
-  };
   turnTo("direct");
-  for (const int k : batch.articulations) {
-    if (!w.settings.maxCorrectionSpeed) break;
-    articulations[k].leave(w.kinds, {b.pose, b.start, h}, h * *w.settings.maxCorrectionSpeed);
-  }
-  joints(true);
+  if (w.settings.maxCorrectionSpeed) batch.joints.leave(stage, h * *w.settings.maxCorrectionSpeed);
+  batch.joints.solvePositions(stage, true);
   if (count > 0) {
     turnTo("contact");
     toLanes(batch);
-    kernels.warmStart(blocks, count, batch.motions.data());
+    contactKernels().warmStart(batch.blocks.data(), count, batch.motions.data());
     const double push = w.settings.contact->maxSeparationSpeed * h;
-    kernels.sweepPositions(blocks, count, batch.motions.data(), static_cast<float>(push));
+    contactKernels().sweepPositions(batch.blocks.data(), count, batch.motions.data(),
+                                    static_cast<float>(push));
     fromLanes(batch);
   }
   sweepDeformables(w, batch, h);
   turnTo("direct");
-  joints(false);
-  if (count == 0) joints(false);  // as smooth as this, another step of Newton's costs little
-  for (const int k : batch.articulations) {
-    for (const BodyId i : articulations[k].bodies()) b.pose[i] = b.start[i];
+  if (count > 0) {
+    batch.joints.solvePositions(stage, false);
+  } else {
+    batch.joints.closePositions(stage);
   }
-  if (count > 0 && !batch.articulations.empty()) toLanes(batch);
-  turnTo("motion");
-  displaceAll(w, batch, h);
+  if (count > 0 && batch.isMixed()) toLanes(batch);
+}
+
+// Of what is swept one by one.
+void SmallSteps::Impl::sweepSoft(Batch& batch) {
+  sweepVelocities(batch.softRows, moved);
+  for (const int k : batch.deformables) deformables[k].sweepVelocities(moved);
+  sweepVelocities(batch.softRows, moved);
+}
+
+void SmallSteps::Impl::solveVelocities(World::Impl& w, Batch& batch, double h) {
+  const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
+  const int count = static_cast<int>(batch.blocks.size());
   turnTo("direct");
-  for (const int k : batch.articulations) {
-    articulations[k].prepareVelocities(w.kinds, {b.pose, b.start, h}, masses);
-    articulations[k].solveVelocities(masses, moved);
-  }
+  batch.joints.prepareVelocities(stage);
+  batch.joints.solveVelocities(stage);
   for (const int k : batch.deformables) {
-    deformables[k].prepareVelocities(w.kinds, {b.pose, b.start, h}, masses);
+    deformables[k].prepareVelocities(w.kinds, {w.bodies.pose, w.bodies.start, h}, masses);
   }
   measure(batch.softRows, moved);
-  const auto soft = [&] {
-    physics::sweepVelocities(batch.softRows, moved);
-    for (const int k : batch.deformables) deformables[k].sweepVelocities(moved);
-    physics::sweepVelocities(batch.softRows, moved);
-  };
-  const bool mixed =
-      !batch.articulations.empty() || !batch.deformables.empty() || !batch.softRows.empty();
-  if (count == 0 && mixed) {
-    for (int s = 0; s < batch.sweeps; ++s) {
-      soft();
-      for (const int k : batch.articulations) articulations[k].solveVelocities(masses, moved);
-    }
-  }
   if (count > 0) {
-    turnTo("contact");
     toLanes(batch);
-    kernels.measure(blocks, count, batch.motions.data());
-    for (int s = 0; s < batch.sweeps; ++s) {
-      kernels.sweepVelocities(blocks, count, batch.motions.data());
-      if (!mixed) continue;
-      fromLanes(batch);
-      soft();
-      turnTo("direct");
-      for (const int k : batch.articulations) articulations[k].solveVelocities(masses, moved);
-      turnTo("contact");
-      if (s + 1 < batch.sweeps) toLanes(batch);
-    }
-    if (!mixed) fromLanes(batch);
+    contactKernels().measure(batch.blocks.data(), count, batch.motions.data());
   }
+  const bool isMixed = batch.isMixed();
+  for (int s = 0; s < batch.sweeps; ++s) {
+    if (count > 0) {
+      turnTo("contact");
+      contactKernels().sweepVelocities(batch.blocks.data(), count, batch.motions.data());
+      if (!isMixed) continue;
+      fromLanes(batch);
+    } else if (batch.deformables.empty() && batch.softRows.empty()) {
+      break;  // joints alone are solved already
+    }
+    turnTo("direct");
+    sweepSoft(batch);
+    batch.joints.solveVelocities(stage);
+    if (count > 0 && s + 1 < batch.sweeps) toLanes(batch);
+  }
+  if (count > 0 && !isMixed) fromLanes(batch);
+}
+
+void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepReport& report) {
+  Bodies& b = w.bodies;
+  solvePositions(w, batch, h);
+  turnTo("motion");
+  displaceAll(w, batch, h);
+  solveVelocities(w, batch, h);
   turnTo("motion");
   for (const BodyId i : batch.bodies) {
     if (b.motion[i] != Motion::kDynamic) continue;
@@ -229,15 +224,17 @@ void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepRepor
   }
   bounce(w, batch, h);
   turnTo("");
+  const auto touching = static_cast<std::int64_t>(batch.contacts.size() + batch.softRows.size());
   report.iterations += 1 + batch.sweeps;
-  report.work.contactVisits +=
-      static_cast<std::int64_t>(batch.contacts.size()) * (1 + batch.sweeps);
-  report.work.frictionRows += static_cast<std::int64_t>(batch.contacts.size()) * batch.sweeps;
+  report.work.contactVisits += touching * (1 + batch.sweeps);
+  report.work.frictionRows += touching * batch.sweeps;
+  report.constraintEvaluations += touching * (1 + batch.sweeps);
   for (const int k : batch.articulations) {
     report.constraintEvaluations += 3 * static_cast<std::int64_t>(articulations[k].size());
   }
-  report.constraintEvaluations +=
-      static_cast<std::int64_t>(batch.contacts.size()) * (1 + batch.sweeps);
+  for (const int k : batch.deformables) {
+    report.constraintEvaluations += 2 * static_cast<std::int64_t>(deformables[k].size());
+  }
 }
 
 }  // namespace physics

@@ -1,0 +1,120 @@
+// How articulations of equal topology lie side by side, one to a lane: the memory that the kernels
+// of joint_kernels.h work in. Plain numbers, so that what is compiled for wider registers shares no
+// code with anything else.
+#pragma once
+
+namespace physics {
+
+// Kinds that the kernels evaluate themselves, and what is fixed of one, in body frames:
+//   gap    its two anchors
+//   cone   its two axes, the angle and its cosine
+//   twist  the axis, the reference w x y z, and the bounds and the tangents of their halves
+enum class JointSeen : char { kByKind, kGap, kCone, kTwist };
+constexpr int kJointFixed = 11;
+
+template <int W>
+struct alignas(8 * W) Num {
+  double v[W];
+};
+
+// A body that rows act on. Turns are w, x, y, z; the inertia is M^-1's, xx yy zz xy xz yz, world.
+template <int W>
+struct JointBody {
+  Num<W> startX[3], startQ[4], x[3], q[4];
+  Num<W> u[3], theta[3];          // what it moves by in this substep
+  Num<W> seenU[3], seenTheta[3];  // and did where its rows were evaluated
+  Num<W> inverseMass, inertia[6];
+};
+
+// What factorizing leaves of a row: M^-1 J^T by bodies and rows, epsilon A, A_ii and the inverse of
+// D_ii, lower triangles by rows.
+template <int W>
+struct JointFactor {
+  Num<W> response[2][9], yields, diagonal[6], inverse[6];
+};
+
+// One constraint or force. J is by rows; that of a gap is +-1 and the cross product with `angular`.
+template <int W>
+struct JointLanes {
+  Num<W> free;  // 1: lambda is solved for; 0: it is held
+  Num<W> c[3], left[3], lambda[3], right[3];
+  Num<W> linear[2][9], angular[2][9], arm[2][3];
+  Num<W> fixed[kJointFixed];  // of what the kernels evaluate: see JointSeen
+  Num<W> alpha[6], regularisation, low, high, longest;
+  JointFactor<W> factor;
+};
+
+// A_ki below the diagonal, and L_ki.
+template <int W>
+struct JointBlock {
+  Num<W> entry[9], scaled[9];
+};
+
+// What articulations of equal topology share. Rows are in the order of elimination and 1 or 3 high;
+// of 3 the last one may be empty.
+struct JointShape {
+  int rows = 0, size = 0, bodyCount = 0, body[2] = {0, 0};  // bodies of the articulation
+  bool moves[2] = {false, false};
+  JointSeen seen = JointSeen::kByKind;
+  bool pulls = false;   // its arms are known
+  bool hasWay = false;  // its error is in m, else in rad
+  bool isGap = false, hasLinear = false, hasAngular = false;
+};
+struct JointBelow {
+  int to, block;
+};
+// Column i: below[start...], and of each pair p <= q of these the block that (q, p) goes to, -1 on
+// the diagonal, at updates + q (q + 1) / 2 + p.
+struct JointColumn {
+  int start = 0, count = 0, updates = 0;
+};
+// The bodies that the rows of a block share, by their places in the later and the earlier row.
+struct JointMeeting {
+  int count = 0, later[2] = {0, 0}, earlier[2] = {0, 0};
+};
+
+template <int W>
+struct JointView {
+  JointBody<W>* bodies;
+  JointLanes<W>* rows;
+  JointBlock<W>* blocks;
+  int bodyCount, rowCount;
+  const JointShape* shapes;
+  const JointColumn* columns;
+  const JointBelow* below;
+  const int* updates;
+  const JointMeeting* meetings;
+  Num<W>* open;                 // by lane: 0 where positions are as good as they get
+  char* used;                   // by row: free in any lane
+  int *usedBelow, *usedCounts;  // places in a column of what is used, from the column's start
+};
+
+template <int W>
+struct JointKernels {
+  using System = JointView<W>;
+  void (*place)(const System&);    // x, q: the start moved by u
+  void (*seeGaps)(const System&);  // c and J of gaps at x, q
+  // c, J and bounds of cones and twists: of all, where only the sign of c counts, or of those used.
+  void (*seeLimits)(const System&, bool all);
+  void (*chooseLimits)(const System&);  // free where lambda = 0 is no solution
+  bool (*holdLimits)(const System&,
+                     bool (&held)[W]);  // at their bounds; what they give up is given
+  void (*factorize)(const System&);
+  void (*aimAtErrors)(const System&);      // right = -(c - left + J (u - seen) + alpha lambda)
+  bool (*findOpen)(const System&);         // where what is aimed at is more than rounding
+  void (*aimAtVelocities)(const System&);  // right = -J u
+  void (*substitute)(const System&);       // right <- A^-1 right
+  void (*apply)(const System&);            // lambda += right, u += M^-1 J^T right
+};
+
+template <int W>
+const JointKernels<W>& jointKernels();
+extern const JointKernels<1> kJointKernelsSse2Of1, kJointKernelsAvx2Of1;
+extern const JointKernels<4> kJointKernelsSse2Of4, kJointKernelsAvx2Of4;
+
+// q = exp(theta) q of a turn that is too far for a few terms of the series.
+void turnFar(const double (&theta)[3], double (&q)[4]);
+// A unit vector normal to n.
+void normalTo(const double (&n)[3], double (&w)[3]);
+
+}  // namespace physics

@@ -1,0 +1,289 @@
+// The part of the joint kernels that builds A = J M^-1 J^T + alpha and factors it.
+#pragma once
+
+#include "physics/solver/joint_numbers.h"
+
+namespace physics {
+namespace {
+
+// Keeps the factor regular where rows repeat each other (loops): relative to the row's own A.
+constexpr double kRedundancy = 1e-7;
+
+// M^-1 J^T of the angular part, a column for each row of J.
+template <class N>
+void respond(const JointShape& shape, JointLanes<N::kWidth>& row, int b,
+             const JointBody<N::kWidth>& body) {
+  const N xx = load(body.inertia[0]), yy = load(body.inertia[1]), zz = load(body.inertia[2]);
+  const N xy = load(body.inertia[3]), xz = load(body.inertia[4]), yz = load(body.inertia[5]);
+  const Triple<N> x = {xx, xy, xz}, y = {xy, yy, yz}, z = {xz, yz, zz};
+  auto* to = row.factor.response[b];
+  if (shape.isGap) {
+    const Triple<N> a = load3<N>(row.angular[b]);
+    store3(to, z * a.y - y * a.z);
+    store3(to + 3, x * a.z - z * a.x);
+    store3(to + 6, y * a.x - x * a.y);
+    return;
+  }
+  for (int r = 0; r < shape.rows; ++r) {
+    const Triple<N> j = load3<N>(row.angular[b] + 3 * r);
+    store3(to + 3 * r, x * j.x + y * j.y + z * j.z);
+  }
+}
+
+double signOf(int place) { return place == 0 ? 1 : -1; }
+
+// J_k M^-1 J_l^T of the body that is the p-th of the gap k and the q-th of the gap l.
+template <class N>
+void coupleGaps(const Of<N>& s, int k, int p, int l, int q, N (&sum)[9]) {
+  const auto* response = s.rows[l].factor.response[q];
+  const N m = all<N>(signOf(p) * signOf(q)) * load(s.bodies[s.shapes[l].body[q]].inverseMass);
+  const Triple<N> a = load3<N>(s.rows[k].angular[p]);
+  const Triple<N> x = cross(a, load3<N>(response)), y = cross(a, load3<N>(response + 3)),
+                  z = cross(a, load3<N>(response + 6));
+  sum[0] = m + x.x, sum[1] = y.x, sum[2] = z.x;
+  sum[3] = x.y, sum[4] = m + y.y, sum[5] = z.y;
+  sum[6] = x.z, sum[7] = y.z, sum[8] = m + z.z;
+}
+
+// Adds J_k M^-1 J_l^T of the body that is k's p-th and l's q-th.
+template <int R, int C, class N>
+void couple(const Of<N>& s, int k, int p, int l, int q, N (&sum)[9]) {
+  const JointShape &later = s.shapes[k], &earlier = s.shapes[l];
+  const auto &rowK = s.rows[k], &rowL = s.rows[l];
+  const N m = load(s.bodies[earlier.body[q]].inverseMass);
+  const auto linear = [&](const auto& row, int b, int r) {
+    return load3<N>(row.linear[b] + 3 * r);
+  };
+  if (R == C && later.isGap && earlier.isGap) {
+    const N signedMass = all<N>(signOf(p) * signOf(q)) * m;
+    for (int r = 0; r < R; ++r) sum[r * C + r] = sum[r * C + r] + signedMass;
+  } else if (later.isGap && earlier.hasLinear) {
+    const N signedMass = all<N>(signOf(p)) * m;
+    for (int c = 0; c < C && c < earlier.rows; ++c) {
+      const Triple<N> j = linear(rowL, q, c) * signedMass;
+      sum[c] = sum[c] + j.x;
+      if constexpr (R == 3) sum[C + c] = sum[C + c] + j.y, sum[2 * C + c] = sum[2 * C + c] + j.z;
+    }
+  } else if (earlier.isGap && later.hasLinear) {
+    const N signedMass = all<N>(signOf(q)) * m;
+    for (int r = 0; r < R && r < later.rows; ++r) {
+      const Triple<N> j = linear(rowK, p, r) * signedMass;
+      sum[r * C] = sum[r * C] + j.x;
+      if constexpr (C == 3)
+        sum[r * C + 1] = sum[r * C + 1] + j.y, sum[r * C + 2] = sum[r * C + 2] + j.z;
+    }
+  } else if (later.hasLinear && earlier.hasLinear) {
+    for (int r = 0; r < later.rows; ++r) {
+      const Triple<N> j = linear(rowK, p, r) * m;
+      for (int c = 0; c < earlier.rows; ++c)
+        sum[r * C + c] = sum[r * C + c] + dot(j, linear(rowL, q, c));
+    }
+  }
+  if (!later.hasAngular || !earlier.hasAngular) return;
+  for (int c = 0; c < C && c < earlier.rows; ++c) {
+    const Triple<N> response = load3<N>(rowL.factor.response[q] + 3 * c);
+    if (R == 3 && later.isGap) {
+      const Triple<N> moved = cross(load3<N>(rowK.angular[p]), response);
+      sum[c] = sum[c] + moved.x;
+      if constexpr (R == 3)
+        sum[C + c] = sum[C + c] + moved.y, sum[2 * C + c] = sum[2 * C + c] + moved.z;
+      continue;
+    }
+    for (int r = 0; r < R && r < later.rows; ++r) {
+      sum[r * C + c] = sum[r * C + c] + dot(load3<N>(rowK.angular[p] + 3 * r), response);
+    }
+  }
+}
+
+constexpr int triangle(int r, int c) { return r * (r + 1) / 2 + c; }
+
+// Adds the lower triangle of J M^-1 J^T of a body of row i.
+template <int R, class N>
+void coupleSelf(const Of<N>& s, int i, int b, N (&sum)[6]) {
+  const JointShape& shape = s.shapes[i];
+  const auto& row = s.rows[i];
+  const auto* response = row.factor.response[b];
+  const N m = load(s.bodies[shape.body[b]].inverseMass);
+  if (R == 3 && shape.isGap) {
+    const Triple<N> a = load3<N>(row.angular[b]), x = load3<N>(response),
+                    y = load3<N>(response + 3), z = load3<N>(response + 6);
+    sum[0] = sum[0] + (m + (a.y * x.z - a.z * x.y));
+    sum[1] = sum[1] + (a.z * x.x - a.x * x.z);
+    sum[2] = sum[2] + (m + (a.z * y.x - a.x * y.z));
+    sum[3] = sum[3] + (a.x * x.y - a.y * x.x);
+    sum[4] = sum[4] + (a.x * y.y - a.y * y.x);
+    sum[5] = sum[5] + (m + (a.x * z.y - a.y * z.x));
+    return;
+  }
+  for (int r = 0; r < R && r < shape.rows; ++r) {
+    for (int c = 0; c <= r; ++c) {
+      N& entry = sum[triangle(r, c)];
+      if (shape.hasLinear) {
+        entry = entry + dot(load3<N>(row.linear[b] + 3 * r), load3<N>(row.linear[b] + 3 * c)) * m;
+      }
+      if (shape.hasAngular) {
+        entry = entry + dot(load3<N>(row.angular[b] + 3 * r), load3<N>(response + 3 * c));
+      }
+    }
+  }
+}
+
+// A_ii, and 1 on the diagonal of lanes in which the row is held.
+template <int R, class N>
+void buildDiagonal(const Of<N>& s, int i) {
+  const JointShape& shape = s.shapes[i];
+  auto& row = s.rows[i];
+  N a[6];
+  for (N& entry : a) entry = all<N>(0);
+  for (int b = 0; b < shape.bodyCount; ++b) {
+    if (!shape.moves[b]) continue;
+    if (shape.hasAngular) respond<N>(shape, row, b, s.bodies[shape.body[b]]);
+    coupleSelf<R, N>(s, i, b, a);
+  }
+  N trace = a[0];
+  if constexpr (R == 3) trace = trace + a[2] + a[5];
+  const N mean = trace * all<N>(1.0 / shape.rows);
+  const N yields = load(row.regularisation) * mean;
+  store(row.factor.yields, yields);
+  const N extra = yields + wherePositive(mean, all<N>(kRedundancy) * mean, all<N>(1));
+  const N free = load(row.free);
+  for (int r = 0; r < R; ++r) {
+    for (int c = 0; c <= r; ++c) {
+      N entry = a[triangle(r, c)] + load(row.alpha[triangle(r, c)]);
+      if (r == c) entry = r < shape.rows ? entry + extra : all<N>(1);
+      store(row.factor.diagonal[triangle(r, c)],
+            wherePositive(free, entry, all<N>(r == c ? 1 : 0)));
+    }
+  }
+}
+
+template <int R, int C, class N>
+void buildBlock(const Of<N>& s, int k, int i, int block) {
+  N sum[9];
+  const JointMeeting& meeting = s.meetings[block];
+  if (R == 3 && C == 3 && meeting.count == 1 && s.shapes[k].isGap && s.shapes[i].isGap) {
+    coupleGaps<N>(s, k, meeting.later[0], i, meeting.earlier[0], sum);
+  } else {
+    for (N& entry : sum) entry = all<N>(0);
+    for (int m = 0; m < meeting.count; ++m) {
+      couple<R, C>(s, k, meeting.later[m], i, meeting.earlier[m], sum);
+    }
+  }
+  const N free = wherePositive(load(s.rows[k].free), load(s.rows[i].free), all<N>(0));
+  for (int e = 0; e < R * C; ++e) {
+    store(s.blocks[block].entry[e], wherePositive(free, sum[e], all<N>(0)));
+  }
+}
+
+template <int R, class N>
+void invert(JointFactor<N::kWidth>& factor) {
+  const auto* d = factor.diagonal;
+  if constexpr (R == 1) {
+    store(factor.inverse[0], all<N>(1) / load(d[0]));
+    return;
+  }
+  const N a = load(d[0]), b = load(d[1]), c = load(d[2]), e = load(d[3]), f = load(d[4]),
+          g = load(d[5]);  // a; b c; e f g
+  const N ca = c * g - f * f, cb = e * f - b * g, ce = b * f - c * e;
+  const N scale = all<N>(1) / (a * ca + b * cb + e * ce);
+  const N inverse[6] = {ca, cb, a * g - e * e, ce, b * e - a * f, a * c - b * b};
+  for (int k = 0; k < 6; ++k) store(factor.inverse[k], inverse[k] * scale);
+}
+
+constexpr int symmetric(int r, int c) { return r > c ? triangle(r, c) : triangle(c, r); }
+
+// L_ki = A_ki D_ii^-1
+template <int R, int C, class N>
+void scale(JointBlock<N::kWidth>& block, const JointFactor<N::kWidth>& factor) {
+  for (int r = 0; r < R; ++r) {
+    for (int c = 0; c < C; ++c) {
+      N sum = load(block.entry[r * C]) * load(factor.inverse[symmetric(0, c)]);
+      for (int k = 1; k < C; ++k) {
+        sum = sum + load(block.entry[r * C + k]) * load(factor.inverse[symmetric(k, c)]);
+      }
+      store(block.scaled[r * C + c], sum);
+    }
+  }
+}
+
+// to -= L_qi A_pi^T; of the diagonal the lower triangle.
+template <int R, int C, int I, bool kDiagonal, class N>
+void update(Num<N::kWidth>* to, const JointBlock<N::kWidth>& q, const JointBlock<N::kWidth>& p) {
+  for (int r = 0; r < R; ++r) {
+    for (int c = 0; c < (kDiagonal ? r + 1 : C); ++c) {
+      N sum = load(q.scaled[r * I]) * load(p.entry[c * I]);
+      for (int k = 1; k < I; ++k) sum = sum + load(q.scaled[r * I + k]) * load(p.entry[c * I + k]);
+      auto& entry = to[kDiagonal ? triangle(r, c) : r * C + c];
+      store(entry, load(entry) - sum);
+    }
+  }
+}
+
+template <int kSize>
+struct Size {
+  static constexpr int value = kSize;
+};
+
+template <class F>
+void withSize(int size, F&& f) {
+  size == 1 ? f(Size<1>{}) : f(Size<3>{});
+}
+
+template <class N>
+void eliminate(const Of<N>& s, int i) {
+  auto& factor = s.rows[i].factor;
+  const JointColumn& column = s.columns[i];
+  const JointBelow* below = s.below + column.start;
+  const int *used = s.usedBelow + column.start, count = s.usedCounts[i];
+  withSize(s.shapes[i].size, [&](auto size) {
+    constexpr int kI = decltype(size)::value;
+    invert<kI, N>(factor);
+    for (int u = 0; u < count; ++u) {
+      const JointBelow& q = below[used[u]];
+      withSize(s.shapes[q.to].size, [&](auto high) {
+        constexpr int kR = decltype(high)::value;
+        JointBlock<N::kWidth>& block = s.blocks[q.block];
+        scale<kR, kI, N>(block, factor);
+        const int* target = s.updates + column.updates + used[u] * (used[u] + 1) / 2;
+        for (int v = 0; v < u; ++v) {
+          const JointBelow& p = below[used[v]];
+          withSize(s.shapes[p.to].size, [&](auto wide) {
+            update<kR, decltype(wide)::value, kI, false, N>(s.blocks[target[used[v]]].entry, block,
+                                                            s.blocks[p.block]);
+          });
+        }
+        update<kR, kR, kI, true, N>(s.rows[q.to].factor.diagonal, block, block);
+      });
+    }
+  });
+}
+
+template <class N>
+void factorize(const Of<N>& s) {
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    withSize(s.shapes[i].size, [&](auto size) { buildDiagonal<decltype(size)::value, N>(s, i); });
+  }
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    const JointColumn& column = s.columns[i];
+    int count = 0;
+    for (int k = 0; k < column.count; ++k) {
+      const JointBelow& below = s.below[column.start + k];
+      if (!s.used[below.to]) continue;
+      s.usedBelow[column.start + count++] = k;
+      withSize(s.shapes[below.to].size, [&](auto high) {
+        withSize(s.shapes[i].size, [&](auto wide) {
+          buildBlock<decltype(high)::value, decltype(wide)::value, N>(s, below.to, i, below.block);
+        });
+      });
+    }
+    s.usedCounts[i] = count;
+  }
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (s.used[i]) eliminate<N>(s, i);
+  }
+}
+
+}  // namespace
+}  // namespace physics

@@ -1,0 +1,246 @@
+// The kernels of joint_block.h, for the two files that compile them. KERNELS(n) names the table for
+// n lanes. What is done in one lane is the same, to the last bit, for any number of them.
+#include "physics/solver/joint_block.h"
+#include "physics/solver/joint_factor.h"
+#include "physics/solver/joint_limits.h"
+
+namespace physics {
+namespace {
+
+constexpr double kClosed = 1e-5;    // of the larger arm and of the way, or rad
+constexpr double kFarTurn2 = 1e-2;  // rad^2: below, five terms are exact to 1e-17
+
+// exp(theta) as w, x, y, z.
+template <class N>
+void exponential(const Triple<N>& theta, N (&e)[4]) {
+  const N one = all<N>(1), t = all<N>(0.25) * squaredNorm(theta);
+  const auto series = [&](double a, double b, double c, double d) {
+    return one -
+           t * all<N>(a) * (one - t * all<N>(b) * (one - t * all<N>(c) * (one - t * all<N>(d))));
+  };
+  e[0] = one - t * all<N>(0.5) * series(1.0 / 12, 1.0 / 30, 1.0 / 56, 1.0 / 90);
+  const N halfSinc = all<N>(0.5) * series(1.0 / 6, 1.0 / 20, 1.0 / 42, 1.0 / 72);
+  const Triple<N> v = theta * halfSinc;
+  e[1] = v.x, e[2] = v.y, e[3] = v.z;
+  Num<N::kWidth> squared, parts[4], angles[3];
+  store(squared, t + t + t + t);
+  bool anyFar = false;
+  for (int l = 0; l < N::kWidth; ++l) anyFar = anyFar || !(squared.v[l] < kFarTurn2);
+  if (!anyFar) return;
+  for (int k = 0; k < 4; ++k) store(parts[k], e[k]);
+  store3(angles, theta);
+  for (int l = 0; l < N::kWidth; ++l) {
+    if (squared.v[l] < kFarTurn2) continue;
+    double q[4];
+    turnFar({angles[0].v[l], angles[1].v[l], angles[2].v[l]}, q);
+    for (int k = 0; k < 4; ++k) parts[k].v[l] = q[k];
+  }
+  for (int k = 0; k < 4; ++k) e[k] = load(parts[k]);
+}
+
+template <class N>
+void place(const Of<N>& s) {
+  for (int i = 0; i < s.bodyCount; ++i) {
+    JointBody<N::kWidth>& body = s.bodies[i];
+    store3(body.x, load3<N>(body.startX) + load3<N>(body.u));
+    N e[4];
+    exponential(load3<N>(body.theta), e);
+    const N w = load(body.startQ[0]), x = load(body.startQ[1]), y = load(body.startQ[2]),
+            z = load(body.startQ[3]);
+    store(body.q[0], e[0] * w - e[1] * x - e[2] * y - e[3] * z);
+    store(body.q[1], e[0] * x + e[1] * w + e[2] * z - e[3] * y);
+    store(body.q[2], e[0] * y + e[2] * w + e[3] * x - e[1] * z);
+    store(body.q[3], e[0] * z + e[3] * w + e[1] * y - e[2] * x);
+  }
+}
+
+template <class N>
+void seeGaps(const Of<N>& s) {
+  const Triple<N> zero = {all<N>(0), all<N>(0), all<N>(0)};
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.shapes[i].isGap) continue;
+    JointLanes<N::kWidth>& row = s.rows[i];
+    const auto &a = s.bodies[s.shapes[i].body[0]], &b = s.bodies[s.shapes[i].body[1]];
+    const Triple<N> armA = turned<N>(a.q, load3<N>(row.fixed)),
+                    armB = turned<N>(b.q, load3<N>(row.fixed + 3));
+    store3(row.arm[0], armA);
+    store3(row.arm[1], armB);
+    store3(row.angular[0], zero - armA);  // (72)
+    store3(row.angular[1], armB);
+    store3(row.c, (load3<N>(a.x) + armA) - (load3<N>(b.x) + armB));  // (71)
+  }
+}
+
+// J of row i times what u and theta say of its bodies; rows of J, the others are zero.
+template <class N, class F>
+Triple<N> along(const Of<N>& s, int i, F&& motion) {
+  const JointShape& shape = s.shapes[i];
+  const auto& row = s.rows[i];
+  N sum[3] = {all<N>(0), all<N>(0), all<N>(0)};
+  Triple<N> u, theta;
+  if (shape.isGap) {
+    motion(s.bodies[shape.body[0]], u, theta);
+    const Triple<N> first = u + cross(load3<N>(row.angular[0]), theta);
+    motion(s.bodies[shape.body[1]], u, theta);
+    return first - (u - cross(load3<N>(row.angular[1]), theta));
+  }
+  for (int b = 0; b < shape.bodyCount; ++b) {
+    motion(s.bodies[shape.body[b]], u, theta);
+    for (int r = 0; r < shape.rows; ++r) {
+      if (shape.hasLinear) sum[r] = sum[r] + dot(load3<N>(row.linear[b] + 3 * r), u);
+      if (shape.hasAngular) sum[r] = sum[r] + dot(load3<N>(row.angular[b] + 3 * r), theta);
+    }
+  }
+  return {sum[0], sum[1], sum[2]};
+}
+
+template <class N>
+Triple<N> alphaTimes(const Num<N::kWidth>* alpha, const Triple<N>& v) {
+  const N b = load(alpha[1]), e = load(alpha[3]), f = load(alpha[4]);
+  return {load(alpha[0]) * v.x + b * v.y + e * v.z, b * v.x + load(alpha[2]) * v.y + f * v.z,
+          e * v.x + f * v.y + load(alpha[5]) * v.z};
+}
+
+template <class N>
+void aim(const Of<N>& s, JointLanes<N::kWidth>& row, const Triple<N>& error) {
+  const N zero = all<N>(0), free = wherePositive(load(*s.open), load(row.free), zero);
+  store(row.right[0], wherePositive(free, zero - error.x, zero));
+  store(row.right[1], wherePositive(free, zero - error.y, zero));
+  store(row.right[2], wherePositive(free, zero - error.z, zero));
+}
+
+template <class N>
+void aimAtErrors(const Of<N>& s) {
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    auto& row = s.rows[i];
+    const Triple<N> since = along<N>(s, i, [](const auto& body, auto& u, auto& theta) {
+      u = load3<N>(body.u) - load3<N>(body.seenU);
+      theta = load3<N>(body.theta) - load3<N>(body.seenTheta);
+    });
+    const Triple<N> lambda = load3<N>(row.lambda);
+    Triple<N> error = load3<N>(row.c) - load3<N>(row.left) + since;
+    error = error + alphaTimes<N>(row.alpha, lambda) + lambda * load(row.factor.yields);
+    aim<N>(s, row, error);
+  }
+}
+
+template <class N>
+bool findOpen(const Of<N>& s) {
+  N most = all<N>(-1);
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    const auto& row = s.rows[i];
+    N scale = all<N>(1);
+    if (s.shapes[i].hasWay) {
+      scale = all<N>(0);
+      for (int b = 0; b < s.shapes[i].bodyCount; ++b) {
+        scale = larger(scale, squaredNorm(load3<N>(s.bodies[s.shapes[i].body[b]].u)));
+        if (s.shapes[i].pulls) scale = larger(scale, squaredNorm(load3<N>(row.arm[b])));
+      }
+    }
+    most = larger(most, squaredNorm(load3<N>(row.right)) - all<N>(kClosed * kClosed) * scale);
+  }
+  const N open = load(*s.open);
+  store(*s.open, wherePositive(most, open, all<N>(0)));
+  return anyPositive(wherePositive(most, open, all<N>(0)));
+}
+
+template <class N>
+void aimAtVelocities(const Of<N>& s) {
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    aim<N>(s, s.rows[i], along<N>(s, i, [](const auto& body, auto& u, auto& theta) {
+             u = load3<N>(body.u);
+             theta = load3<N>(body.theta);
+           }));
+  }
+}
+
+template <class N>
+void substitute(const Of<N>& s) {
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    const JointBelow* below = s.below + s.columns[i].start;
+    const int* used = s.usedBelow + s.columns[i].start;
+    withSize(s.shapes[i].size, [&](auto size) {
+      constexpr int kI = decltype(size)::value;
+      N y[kI];
+      for (int c = 0; c < kI; ++c) y[c] = load(s.rows[i].right[c]);
+      for (int u = 0; u < s.usedCounts[i]; ++u) {
+        const JointBelow& q = below[used[u]];
+        const auto* scaled = s.blocks[q.block].scaled;
+        auto* right = s.rows[q.to].right;
+        for (int r = 0; r < s.shapes[q.to].size; ++r) {
+          N sum = load(scaled[r * kI]) * y[0];
+          for (int c = 1; c < kI; ++c) sum = sum + load(scaled[r * kI + c]) * y[c];
+          store(right[r], load(right[r]) - sum);
+        }
+      }
+    });
+  }
+  for (int i = s.rowCount; i-- > 0;) {
+    if (!s.used[i]) continue;
+    const JointBelow* below = s.below + s.columns[i].start;
+    const int* used = s.usedBelow + s.columns[i].start;
+    auto& row = s.rows[i];
+    withSize(s.shapes[i].size, [&](auto size) {
+      constexpr int kI = decltype(size)::value;
+      N y[kI];
+      for (int r = 0; r < kI; ++r) {
+        y[r] = load(row.factor.inverse[symmetric(r, 0)]) * load(row.right[0]);
+        for (int c = 1; c < kI; ++c) {
+          y[r] = y[r] + load(row.factor.inverse[symmetric(r, c)]) * load(row.right[c]);
+        }
+      }
+      for (int u = 0; u < s.usedCounts[i]; ++u) {
+        const JointBelow& q = below[used[u]];
+        const auto* scaled = s.blocks[q.block].scaled;
+        for (int r = 0; r < s.shapes[q.to].size; ++r) {
+          const N right = load(s.rows[q.to].right[r]);
+          for (int c = 0; c < kI; ++c) y[c] = y[c] - load(scaled[r * kI + c]) * right;
+        }
+      }
+      for (int c = 0; c < kI; ++c) store(row.right[c], y[c]);
+    });
+  }
+}
+
+template <class N>
+void apply(const Of<N>& s) {
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    const JointShape& shape = s.shapes[i];
+    auto& row = s.rows[i];
+    const Triple<N> change = load3<N>(row.right);
+    const N parts[3] = {change.x, change.y, change.z};
+    store3(row.lambda, load3<N>(row.lambda) + change);
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (!shape.moves[b]) continue;
+      auto& body = s.bodies[shape.body[b]];
+      const N m = load(body.inverseMass);
+      Triple<N> u = load3<N>(body.u), theta = load3<N>(body.theta);
+      if (shape.isGap) u = b == 0 ? u + change * m : u - change * m;
+      for (int r = 0; r < shape.rows; ++r) {
+        if (shape.hasLinear) u = u + load3<N>(row.linear[b] + 3 * r) * (m * parts[r]);
+        if (shape.hasAngular) theta = theta + load3<N>(row.factor.response[b] + 3 * r) * parts[r];
+      }
+      store3(body.u, u);
+      store3(body.theta, theta);
+    }
+  }
+}
+
+template <class N>
+constexpr JointKernels<N::kWidth> tableOf() {
+  return {place<N>,           seeGaps<N>,    seeLimits<N>,   chooseLimits<N>,
+          holdLimits<N>,      factorize<N>,  aimAtErrors<N>, findOpen<N>,
+          aimAtVelocities<N>, substitute<N>, apply<N>};
+}
+
+}  // namespace
+
+const JointKernels<1> KERNELS(1) = tableOf<One>();
+const JointKernels<4> KERNELS(4) = tableOf<Four>();
+
+}  // namespace physics

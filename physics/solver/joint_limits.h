@@ -1,0 +1,210 @@
+// The part of the joint kernels that is about limits: cones and twists, one-sided rows of one.
+#pragma once
+
+#include "physics/solver/joint_numbers.h"
+
+namespace physics {
+namespace {
+
+constexpr double kNoBound = __builtin_inf();
+constexpr double kInside = -1;  // an error of what is within its bounds, where only the sign counts
+constexpr double kHalfTurn = 3.14159265358979323846;
+
+template <class N>
+bool anyPositive(N test) {
+  Num<N::kWidth> flags;
+  store(flags, wherePositive(test, all<N>(1), all<N>(0)));
+  bool any = false;
+  for (int l = 0; l < N::kWidth; ++l) any = any || flags.v[l] > 0;
+  return any;
+}
+
+template <class N>
+Triple<N> turned(const Num<N::kWidth>* q, const Triple<N>& v) {
+  const Triple<N> axis = load3<N>(q + 1), half = cross(axis, v), t = half + half;
+  return v + t * load(q[0]) + cross(axis, t);
+}
+
+// atan of 0 <= t <= 1, by two halvings atan t = 2 atan(t / (1 + sqrt(1 + t^2))) and the series.
+template <class N>
+N arcTangentUnit(N t) {
+  const N one = all<N>(1);
+  for (int k = 0; k < 2; ++k) t = t / (one + root(one + t * t));
+  const N s = t * t;
+  N sum = all<N>(1.0 / 25);
+  sum = all<N>(-1.0 / 23) + s * sum;
+  sum = all<N>(1.0 / 21) + s * sum;
+  sum = all<N>(-1.0 / 19) + s * sum;
+  sum = all<N>(1.0 / 17) + s * sum;
+  sum = all<N>(-1.0 / 15) + s * sum;
+  sum = all<N>(1.0 / 13) + s * sum;
+  sum = all<N>(-1.0 / 11) + s * sum;
+  sum = all<N>(1.0 / 9) + s * sum;
+  sum = all<N>(-1.0 / 7) + s * sum;
+  sum = all<N>(1.0 / 5) + s * sum;
+  sum = all<N>(-1.0 / 3) + s * sum;
+  return all<N>(4) * (t + t * s * sum);
+}
+
+// atan2, in (-pi, pi].
+template <class N>
+N arcTangent(N y, N x) {
+  const N zero = all<N>(0), ay = larger(y, zero - y), ax = larger(x, zero - x);
+  const N low = smaller(ax, ay), high = larger(ax, ay);
+  const N unit = arcTangentUnit(low / wherePositive(high, high, all<N>(1)));
+  N angle = wherePositive(ay - ax, all<N>(kHalfTurn / 2) - unit, unit);
+  angle = wherePositive(zero - x, all<N>(kHalfTurn) - angle, angle);
+  return wherePositive(zero - y, zero - angle, angle);
+}
+
+template <class N>
+void oppose(JointLanes<N::kWidth>& row, const Triple<N>& gradient) {
+  const N zero = all<N>(0);
+  store3(row.angular[0], Triple<N>{zero, zero, zero} - gradient);
+  store3(row.angular[1], gradient);
+}
+
+// The direction of n_i x n_j, or any normal where they are parallel.
+template <class N>
+Triple<N> turningAxis(const Triple<N>& cross, N sine, const Triple<N>& ni) {
+  const N apart = sine - all<N>(1e-12);
+  Triple<N> w = cross * (all<N>(1) / wherePositive(apart, sine, all<N>(1)));
+  if (!anyPositive(all<N>(0) - apart)) return w;
+  Num<N::kWidth> far, parts[3], n[3];
+  store(far, apart);
+  store3(parts, w);
+  store3(n, ni);
+  for (int l = 0; l < N::kWidth; ++l) {
+    if (far.v[l] > 0) continue;
+    double normal[3];
+    normalTo({n[0].v[l], n[1].v[l], n[2].v[l]}, normal);
+    for (int k = 0; k < 3; ++k) parts[k].v[l] = normal[k];
+  }
+  return load3<N>(parts);
+}
+
+// c = phi - phi_l, (88)-(90); physics/constraints/cone_limit.h
+template <class N>
+void seeCone(const JointBody<N::kWidth>& i, const JointBody<N::kWidth>& j, bool every,
+             JointLanes<N::kWidth>& row) {
+  const Triple<N> ni = turned<N>(i.q, load3<N>(row.fixed)),
+                  nj = turned<N>(j.q, load3<N>(row.fixed + 3));
+  const N cosine = dot(ni, nj), inside = cosine - load(row.fixed[7]);
+  store(row.low, all<N>(-kNoBound));
+  store(row.high, all<N>(0));
+  store(row.c[0], all<N>(kInside));
+  if (every && !anyPositive(wherePositive(inside, all<N>(0), all<N>(1)))) return;
+  const Triple<N> normal = cross(ni, nj);
+  const N sine = root(dot(normal, normal));
+  const N c = arcTangent(sine, cosine) - load(row.fixed[6]);
+  store(row.c[0], every ? wherePositive(inside, all<N>(kInside), c) : c);
+  oppose(row, turningAxis(normal, sine, ni));
+}
+
+// c = tau - low or tau - high, whichever is nearer; physics/constraints/twist_limit.h
+template <class N>
+void seeTwist(const JointBody<N::kWidth>& i, const JointBody<N::kWidth>& j, bool every,
+              JointLanes<N::kWidth>& row) {
+  const auto product = [](N aw, const Triple<N>& a, N bw, const Triple<N>& b, N& w, Triple<N>& v) {
+    w = aw * bw - dot(a, b);
+    v = b * aw + a * bw + cross(a, b);
+  };
+  const N zero = all<N>(0);
+  const Triple<N> none = {zero, zero, zero}, n = load3<N>(row.fixed);
+  N w;
+  Triple<N> v;
+  product(load(i.q[0]), none - load3<N>(i.q + 1), load(j.q[0]), load3<N>(j.q + 1), w, v);
+  product(w, v, load(row.fixed[3]), none - load3<N>(row.fixed + 4), w, v);
+  // d and -d are the same turn: that with w >= 0 has its twist within (-pi, pi].
+  const N sign = wherePositive(zero - w, all<N>(-1), all<N>(1));
+  w = w * sign;
+  v = v * sign;
+  const N a = dot(v, n);
+  const N inside = smaller(a - load(row.fixed[9]) * w, load(row.fixed[10]) * w - a);
+  store(row.low, all<N>(-kNoBound));
+  store(row.high, zero);
+  store(row.c[0], all<N>(kInside));
+  if (every && !anyPositive(wherePositive(inside, zero, all<N>(1)))) return;
+  const N squared = w * w + a * a, tau = all<N>(2) * arcTangent(a, w);
+  const N fromLow = tau - load(row.fixed[7]), toHigh = load(row.fixed[8]) - tau;
+  const N nearHigh = fromLow - toHigh;
+  const N c = wherePositive(nearHigh, zero - toHigh, fromLow);
+  const N within = every ? inside : zero;
+  store(row.c[0], wherePositive(within, all<N>(kInside), c));
+  store(row.low,
+        wherePositive(nearHigh, all<N>(-kNoBound), wherePositive(within, all<N>(-kNoBound), zero)));
+  store(row.high, wherePositive(nearHigh, zero, wherePositive(within, zero, all<N>(kNoBound))));
+  const N defined = squared - all<N>(1e-12);
+  const N scale = all<N>(1) / wherePositive(defined, squared, all<N>(1));
+  const Triple<N> inI = ((n * w + cross(v, n)) * w + v * a) * scale;
+  const Triple<N> safe = {wherePositive(defined, inI.x, n.x), wherePositive(defined, inI.y, n.y),
+                          wherePositive(defined, inI.z, n.z)};
+  oppose(row, turned<N>(i.q, safe));
+}
+
+template <class N>
+void seeLimits(const Of<N>& s, bool every) {
+  for (int k = 0; k < s.rowCount; ++k) {
+    const JointShape& shape = s.shapes[k];
+    if (!every && !s.used[k]) continue;
+    const auto &i = s.bodies[shape.body[0]], &j = s.bodies[shape.body[1]];
+    if (shape.seen == JointSeen::kCone) seeCone<N>(i, j, every, s.rows[k]);
+    if (shape.seen == JointSeen::kTwist) seeTwist<N>(i, j, every, s.rows[k]);
+  }
+}
+
+bool isLimit(const JointShape& shape) {
+  return shape.seen == JointSeen::kCone || shape.seen == JointSeen::kTwist;
+}
+
+template <class N>
+N within(const JointLanes<N::kWidth>& row, N total) {
+  return smaller(larger(total, load(row.low)), load(row.high));
+}
+
+// 1 where a and b differ.
+template <class N>
+N differ(N a, N b) {
+  return wherePositive(a - b, all<N>(1), wherePositive(b - a, all<N>(1), all<N>(0)));
+}
+
+// A limit is free where it would move into what it may do.
+template <class N>
+void chooseLimits(const Of<N>& s) {
+  for (int k = 0; k < s.rowCount; ++k) {
+    if (!isLimit(s.shapes[k])) continue;
+    auto& row = s.rows[k];
+    store(row.free, differ(within<N>(row, load(row.left[0]) - load(row.c[0])), all<N>(0)));
+  }
+}
+
+template <class N>
+bool holdLimits(const Of<N>& s, bool (&held)[N::kWidth]) {
+  bool any = false;
+  for (int k = 0; k < s.rowCount; ++k) {
+    if (!isLimit(s.shapes[k]) || !s.used[k]) continue;
+    auto& row = s.rows[k];
+    const N zero = all<N>(0), free = load(row.free), lambda = load(row.lambda[0]);
+    const N open = load(*s.open);
+    const N wanted = lambda + load(row.right[0]), inside = within<N>(row, wanted);
+    const N holds = wherePositive(open, wherePositive(free, differ(inside, wanted), zero), zero);
+    if (!anyPositive(holds)) continue;
+    any = true;
+    const N change = wherePositive(holds, inside - lambda, zero);
+    for (int b = 0; b < 2; ++b) {
+      if (!s.shapes[k].moves[b]) continue;
+      auto& body = s.bodies[s.shapes[k].body[b]];
+      store3(body.theta, load3<N>(body.theta) + load3<N>(row.factor.response[b]) * change);
+    }
+    store(row.lambda[0], wherePositive(holds, inside, lambda));
+    store(row.right[0], wherePositive(holds, zero, load(row.right[0])));
+    store(row.free, wherePositive(holds, zero, free));
+    Num<N::kWidth> flags;
+    store(flags, holds);
+    for (int l = 0; l < N::kWidth; ++l) held[l] = held[l] || flags.v[l] > 0;
+  }
+  return any;
+}
+
+}  // namespace
+}  // namespace physics

@@ -1,0 +1,139 @@
+// One double, or four at a time: one AVX2 register, or two SSE2 halves. Every operation is rounded
+// as IEEE says, lane by lane, so that all give the same bytes. Included by the kernels alone.
+#pragma once
+
+#include <immintrin.h>
+
+#include "physics/solver/joint_block.h"
+
+namespace physics {
+namespace {
+
+struct One {
+  static constexpr int kWidth = 1;
+  double v;
+};
+inline One operator+(One a, One b) { return {a.v + b.v}; }
+inline One operator-(One a, One b) { return {a.v - b.v}; }
+inline One operator*(One a, One b) { return {a.v * b.v}; }
+inline One operator/(One a, One b) { return {a.v / b.v}; }
+inline One larger(One a, One b) { return {a.v > b.v ? a.v : b.v}; }
+inline One smaller(One a, One b) { return {a.v < b.v ? a.v : b.v}; }
+inline One root(One a) { return {__builtin_sqrt(a.v)}; }
+inline One wherePositive(One test, One a, One b) { return test.v > 0 ? a : b; }
+inline void put(double a, One& to) { to.v = a; }
+inline One load(const Num<1>& p) { return {p.v[0]}; }
+inline void store(Num<1>& p, One a) { p.v[0] = a.v; }
+
+#ifdef __AVX2__
+
+struct Four {
+  static constexpr int kWidth = 4;
+  __m256d v;
+};
+inline Four operator+(Four a, Four b) { return {_mm256_add_pd(a.v, b.v)}; }
+inline Four operator-(Four a, Four b) { return {_mm256_sub_pd(a.v, b.v)}; }
+inline Four operator*(Four a, Four b) { return {_mm256_mul_pd(a.v, b.v)}; }
+inline Four operator/(Four a, Four b) { return {_mm256_div_pd(a.v, b.v)}; }
+inline Four larger(Four a, Four b) { return {_mm256_max_pd(a.v, b.v)}; }
+inline Four smaller(Four a, Four b) { return {_mm256_min_pd(a.v, b.v)}; }
+inline Four root(Four a) { return {_mm256_sqrt_pd(a.v)}; }
+inline Four wherePositive(Four test, Four a, Four b) {
+  return {_mm256_blendv_pd(b.v, a.v, _mm256_cmp_pd(test.v, _mm256_setzero_pd(), _CMP_GT_OQ))};
+}
+inline void put(double a, Four& to) { to.v = _mm256_set1_pd(a); }
+inline Four load(const Num<4>& p) { return {_mm256_load_pd(p.v)}; }
+inline void store(Num<4>& p, Four a) { _mm256_store_pd(p.v, a.v); }
+
+#else
+
+struct Four {
+  static constexpr int kWidth = 4;
+  __m128d low, high;
+};
+inline Four operator+(Four a, Four b) {
+  return {_mm_add_pd(a.low, b.low), _mm_add_pd(a.high, b.high)};
+}
+inline Four operator-(Four a, Four b) {
+  return {_mm_sub_pd(a.low, b.low), _mm_sub_pd(a.high, b.high)};
+}
+inline Four operator*(Four a, Four b) {
+  return {_mm_mul_pd(a.low, b.low), _mm_mul_pd(a.high, b.high)};
+}
+inline Four operator/(Four a, Four b) {
+  return {_mm_div_pd(a.low, b.low), _mm_div_pd(a.high, b.high)};
+}
+inline Four larger(Four a, Four b) {
+  return {_mm_max_pd(a.low, b.low), _mm_max_pd(a.high, b.high)};
+}
+inline Four smaller(Four a, Four b) {
+  return {_mm_min_pd(a.low, b.low), _mm_min_pd(a.high, b.high)};
+}
+inline Four root(Four a) { return {_mm_sqrt_pd(a.low), _mm_sqrt_pd(a.high)}; }
+inline __m128d chosen(__m128d test, __m128d a, __m128d b) {
+  const __m128d mask = _mm_cmpgt_pd(test, _mm_setzero_pd());
+  return _mm_or_pd(_mm_and_pd(mask, a), _mm_andnot_pd(mask, b));
+}
+inline Four wherePositive(Four test, Four a, Four b) {
+  return {chosen(test.low, a.low, b.low), chosen(test.high, a.high, b.high)};
+}
+inline void put(double a, Four& to) { to.low = to.high = _mm_set1_pd(a); }
+inline Four load(const Num<4>& p) { return {_mm_load_pd(p.v), _mm_load_pd(p.v + 2)}; }
+inline void store(Num<4>& p, Four a) {
+  _mm_store_pd(p.v, a.low);
+  _mm_store_pd(p.v + 2, a.high);
+}
+
+#endif
+
+template <class N>
+inline N all(double a) {
+  N to;
+  put(a, to);
+  return to;
+}
+
+template <class N>
+struct Triple {
+  N x, y, z;
+};
+template <class N>
+inline Triple<N> operator+(const Triple<N>& a, const Triple<N>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class N>
+inline Triple<N> operator-(const Triple<N>& a, const Triple<N>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class N>
+inline Triple<N> operator*(const Triple<N>& a, N s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+template <class N>
+inline N dot(const Triple<N>& a, const Triple<N>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class N>
+inline Triple<N> cross(const Triple<N>& a, const Triple<N>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class N>
+inline N squaredNorm(const Triple<N>& a) {
+  return dot(a, a);
+}
+template <class N>
+inline Triple<N> load3(const Num<N::kWidth>* p) {
+  return {load(p[0]), load(p[1]), load(p[2])};
+}
+template <class N>
+inline void store3(Num<N::kWidth>* p, const Triple<N>& a) {
+  store(p[0], a.x);
+  store(p[1], a.y);
+  store(p[2], a.z);
+}
+
+template <class N>
+using Of = JointView<N::kWidth>;
+
+}  // namespace
+}  // namespace physics

@@ -1,0 +1,434 @@
+// Articulations of equal topology through the stages of a substep: what differs from lane to lane
+// is here, what does not is in the kernels.
+#include <algorithm>
+
+#include "physics/solver/articulation.h"
+#include "physics/solver/joint_lanes.h"
+
+namespace physics {
+namespace {
+
+constexpr int kMostRounds = 6;  // of finding which rows are at a bound
+constexpr int kMostSteps = 5;   // of Newton's, after the first
+
+}  // namespace
+
+template <int W>
+void JointPack<W>::take(std::span<Articulation* const> articulations) {
+  lanes_ = static_cast<int>(articulations.size());
+  std::array<Articulation*, W> of;
+  for (int l = 0; l < W; ++l) of[l] = articulations[l < lanes_ ? l : 0];
+  const bool isSame = topology_ == of[0]->topology_ && of == of_;
+  of_ = of;
+  ids_.resize(of[0]->all_.size() * W);
+  for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = of[i % W]->all_[i / W];
+  if (topology_ != of_[0]->topology_) {
+    topology_ = of_[0]->topology_;
+    bodies_.assign(topology_->bodyCount, JointBody<W>{});
+    rows_.assign(topology_->shapes.size(), JointLanes<W>{});
+    blocks_.assign(topology_->meetings.size(), JointBlock<W>{});
+    states_.assign(topology_->shapes.size(), State{});
+    used_.resize(rows_.size());
+    usedCounts_.resize(rows_.size());
+    usedBelow_.resize(topology_->below.size());
+  }
+  takePulls();
+  if (isSame) return;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    JointLanes<W>& row = rows_[i];
+    for (int l = 0; l < W; ++l) {
+      const JointKind& kind = of_[l]->kinds_[i];
+      row.regularisation.v[l] = kind.regularisation;
+      row.longest.v[l] = std::numeric_limits<double>::infinity();
+      write(row.left, l, Vec3::Zero());
+      for (int k = 0; k < kJointFixed; ++k) row.fixed[k].v[l] = kind.fixed[k];
+    }
+  }
+}
+
+template <int W>
+void JointPack<W>::takePulls() {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!topology_->shapes[i].pulls) continue;
+    const JointShape& shape = topology_->shapes[i];
+    JointLanes<W>& row = rows_[i];
+    for (int l = 0; l < W; ++l) {
+      const Articulation::Pull& pull = of_[l]->pulls_[i];
+      write(row.lambda, l, pull.lambda);
+      for (int b = 0; b < shape.bodyCount; ++b) {
+        write(row.arm[b], l, pull.arm[b]);
+        if (shape.hasLinear) writeRows(row.linear[b], l, pull.linear[b], shape.rows);
+      }
+    }
+  }
+}
+
+template <int W>
+JointView<W> JointPack<W>::view() {
+  return {bodies_.data(),
+          rows_.data(),
+          blocks_.data(),
+          static_cast<int>(bodies_.size()),
+          static_cast<int>(rows_.size()),
+          topology_->shapes.data(),
+          topology_->columns.data(),
+          topology_->below.data(),
+          topology_->updates.data(),
+          topology_->meetings.data(),
+          &open_,
+          used_.data(),
+          usedBelow_.data(),
+          usedCounts_.data()};
+}
+
+template <int W>
+void JointPack<W>::restorePoses(const JointStage& stage) const {
+  for (int l = 0; l < lanes_; ++l) {
+    for (const BodyId body : of_[l]->bodies_) stage.pose[body] = stage.start[body];
+  }
+}
+
+// Trial poses of what joints move; the others stand where they are.
+template <int W>
+void JointPack<W>::place() {
+  jointKernels<W>().place(view());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (topology_->moves[i]) continue;
+    JointBody<W>& body = bodies_[i];
+    std::copy(std::begin(body.startX), std::end(body.startX), std::begin(body.x));
+    std::copy(std::begin(body.startQ), std::end(body.startQ), std::begin(body.q));
+  }
+  jointKernels<W>().seeGaps(view());
+  seenSince_ = true;
+}
+
+template <int W>
+void JointPack<W>::stiffen(std::span<Mat3> stiffness) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!topology_->shapes[i].pulls) continue;
+    const JointShape& shape = topology_->shapes[i];
+    const JointLanes<W>& row = rows_[i];
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (!shape.moves[b]) continue;
+      for (int l = 0; l < lanes_; ++l) {
+        const Vec3 arm = read(row.arm[b], l), lambda = read(row.lambda, l);
+        Vec3 force = b == 0 ? lambda : -lambda;
+        if (!shape.isGap) {
+          force.setZero();
+          for (int r = 0; r < shape.rows; ++r) force += lambda[r] * read(row.linear[b] + 3 * r, l);
+        }
+        const double along = force.dot(arm);
+        if (!(along > 0)) continue;
+        stiffness[ids_[shape.body[b] * W + l]] +=
+            along * (Mat3::Identity() - arm * arm.transpose() / arm.squaredNorm());
+      }
+    }
+  }
+}
+
+// `all`: also those that are held, which say whether they are free.
+template <int W>
+void JointPack<W>::seeOthers(const JointStage& stage, bool all) {
+  JointRow row;
+  for (const int i : topology_->others) {
+    for (int l = 0; l < lanes_; ++l) {
+      if (!all && !(rows_[i].free.v[l] > 0)) continue;
+      evaluateRow(stage.kinds, of_[l]->refs_[i], {stage.pose, stage.start, stage.h}, row);
+      states_[i].active[l] = row.active;
+      if (!row.active) continue;
+      states_[i].role[l] = row.role;
+      takeRow(topology_->shapes[i], l, row, rows_[i]);
+    }
+  }
+}
+
+template <int W>
+void JointPack<W>::setFree(int i, int l, bool free) {
+  if ((rows_[i].free.v[l] > 0) == free) return;
+  rows_[i].free.v[l] = free ? 1 : 0;
+  stale_[l] = true;
+}
+
+template <int W>
+bool JointPack<W>::givesWay(int i, int l) const {
+  if (rows_[i].regularisation.v[l] > 0) return true;
+  if (topology_->shapes[i].seen != JointSeen::kByKind) return false;
+  return states_[i].role[l] != JointRow::Role::kConstraint || hasAlpha(rows_[i], l);
+}
+
+// What of the errors at X^t a substep leaves to later ones, where they are taken back no faster
+// than `most` [m, rad] at a time.
+template <int W>
+void JointPack<W>::leave(const JointStage& stage, double most) {
+  gatherPoses<W>(ids_, stage.pose, bodies_);
+  jointKernels<W>().seeGaps(view());
+  jointKernels<W>().seeLimits(view(), true);
+  seeOthers(stage, true);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const bool isGap = topology_->shapes[i].isGap;
+    const bool isKernels = topology_->shapes[i].seen != JointSeen::kByKind;
+    for (int l = 0; l < lanes_; ++l) {
+      const Vec3 c = read(rows_[i].c, l);
+      const double error = c.norm();
+      const bool speaks =
+          isKernels || (states_[i].active[l] && states_[i].role[l] == JointRow::Role::kConstraint);
+      const bool holds =
+          speaks && (isGap || clamped(topology_->shapes[i], rows_[i], l, -c) != Vec3::Zero());
+      write(rows_[i].left, l, holds && error > most ? (1 - most / error) * c : Vec3::Zero().eval());
+    }
+  }
+}
+
+template <int W>
+void JointPack<W>::begin() {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const int i = static_cast<int>(k);
+    JointLanes<W>& row = rows_[i];
+    const bool byKind = topology_->shapes[i].seen == JointSeen::kByKind;
+    for (int l = 0; l < W; ++l) {
+      write(row.lambda, l, Vec3::Zero());
+      write(row.right, l, Vec3::Zero());
+      row.free.v[l] = byKind ? 0 : 1;
+      if (!byKind || l >= lanes_ || !states_[i].active[l]) continue;
+      if (states_[i].role[l] != JointRow::Role::kLoad) {
+        row.free.v[l] = 1;
+        continue;
+      }
+      const Vec3 lambda = clamped(topology_->shapes[i], rows_[i], l, read(row.c, l));
+      write(row.lambda, l, lambda);
+      give<W>(topology_->shapes[i], rows_[i], l, lambda, bodies_);
+    }
+  }
+  stale_.fill(true);
+}
+
+// A constraint at its bound is free where it would move into what it may do.
+template <int W>
+void JointPack<W>::chooseFree() {
+  jointKernels<W>().chooseLimits(view());
+  for (const int i : topology_->others) {
+    const JointLanes<W>& row = rows_[i];
+    for (int l = 0; l < lanes_; ++l) {
+      if (!states_[i].active[l] || states_[i].role[l] != JointRow::Role::kConstraint) continue;
+      if (!isBounded(rows_[i], l)) continue;
+      const Vec3 wanted = read(row.left, l) - read(row.c, l);
+      setFree(i, l, clamped(topology_->shapes[i], rows_[i], l, wanted) != Vec3::Zero());
+    }
+  }
+}
+
+template <int W>
+void JointPack<W>::findUsed() {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto& free = rows_[i].free.v;
+    used_[i] = std::any_of(free, free + lanes_, [](double f) { return f > 0; });
+  }
+}
+
+template <int W>
+void JointPack<W>::factorize() {
+  findUsed();
+  jointKernels<W>().factorize(view());
+  seenSince_ = false;
+  stale_.fill(false);
+}
+
+// Only lanes whose free rows are others than the factor's take what J is now.
+template <int W>
+void JointPack<W>::factorizeStale() {
+  const auto isStale = [](bool stale) { return stale; };
+  const auto end = stale_.begin() + lanes_;
+  if (std::none_of(stale_.begin(), end, isStale)) return;
+  if (!seenSince_ || std::all_of(stale_.begin(), end, isStale)) return factorize();
+  const std::array<bool, W> stale = stale_;
+  keptFactors_.resize(rows_.size());
+  keptBlocks_.resize(blocks_.size());
+  const auto forEachUsed = [&](auto&& row, auto&& block) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (!used_[i]) continue;
+      row(i);
+      const JointColumn& column = topology_->columns[i];
+      for (int k = 0; k < usedCounts_[i]; ++k) {
+        block(topology_->below[column.start + usedBelow_[column.start + k]].block);
+      }
+    }
+  };
+  forEachUsed([&](std::size_t i) { keptFactors_[i] = rows_[i].factor; },
+              [&](int k) { keptBlocks_[k] = blocks_[k]; });
+  factorize();
+  seenSince_ = true;
+  forEachUsed(
+      [&](std::size_t i) {
+        const JointFactor<W>& from = keptFactors_[i];
+        JointFactor<W>& to = rows_[i].factor;
+        for (int b = 0; b < 2; ++b) restoreLanes<W>(from.response[b], stale, 9, to.response[b]);
+        restoreLanes<W>(&from.yields, stale, 1, &to.yields);
+        restoreLanes<W>(from.inverse, stale, 6, to.inverse);
+      },
+      [&](int k) { restoreLanes<W>(keptBlocks_[k].scaled, stale, 9, blocks_[k].scaled); });
+}
+
+// Rows that the solution would take past a bound are held there, and the others are to be solved
+// for again: what one row gives up, the rows around it have not counted on.
+template <int W>
+bool JointPack<W>::holdAtBounds() {
+  bool held[W] = {};
+  bool any = jointKernels<W>().holdLimits(view(), held);
+  for (int l = 0; l < W; ++l) stale_[l] = stale_[l] || held[l];
+  for (const int i : topology_->others) {
+    if (!used_[i]) continue;
+    JointLanes<W>& row = rows_[i];
+    for (int l = 0; l < lanes_; ++l) {
+      if (!(open_.v[l] > 0) || !(row.free.v[l] > 0) || !isBounded(row, l)) continue;
+      const Vec3 lambda = read(row.lambda, l), wanted = lambda + read(row.right, l);
+      const Vec3 inside = clamped(topology_->shapes[i], rows_[i], l, wanted);
+      if (inside == wanted) continue;
+      if (inside != lambda) give<W>(topology_->shapes[i], rows_[i], l, inside - lambda, bodies_);
+      write(row.lambda, l, inside);
+      write(row.right, l, Vec3::Zero());
+      setFree(i, l, false);
+      any = true;
+    }
+  }
+  return any;
+}
+
+template <int W>
+void JointPack<W>::openAll() {
+  for (int l = 0; l < W; ++l) open_.v[l] = l < lanes_ ? 1 : 0;
+}
+
+template <int W>
+void JointPack<W>::see(const JointStage& stage, bool all) {
+  const JointKernels<W>& kernels = jointKernels<W>();
+  place();
+  kernels.seeLimits(view(), all);
+  if (topology_->others.empty()) return;
+  scatterPoses<W>(ids_, lanes_, topology_->moves, bodies_, stage.pose);
+  seeOthers(stage, all);
+  restorePoses(stage);
+}
+
+template <int W>
+void JointPack<W>::noteSeen() {
+  for (JointBody<W>& body : bodies_) {
+    std::copy(std::begin(body.u), std::end(body.u), std::begin(body.seenU));
+    std::copy(std::begin(body.theta), std::end(body.theta), std::begin(body.seenTheta));
+  }
+}
+
+// A step of Newton's from what was seen last. False where nothing is left to do.
+template <int W>
+bool JointPack<W>::step(bool untilClosed) {
+  const JointKernels<W>& kernels = jointKernels<W>();
+  for (int round = 1;; ++round) {
+    factorizeStale();
+    kernels.aimAtErrors(view());
+    if (untilClosed && round == 1) {
+      if (!kernels.findOpen(view())) return false;
+      kernels.aimAtErrors(view());
+    }
+    kernels.substitute(view());
+    if (round == kMostRounds || !holdAtBounds()) break;
+  }
+  kernels.apply(view());
+  return true;
+}
+
+template <int W>
+void JointPack<W>::solvePositions(const JointStage& stage, bool first) {
+  openAll();
+  gatherMotion<W>(ids_, stage.moved, bodies_);
+  if (first) {
+    gatherMasses<W>(ids_, stage.masses, bodies_);
+    gatherPoses<W>(ids_, stage.pose, bodies_);
+    for (JointBody<W>& body : bodies_) {
+      std::copy(std::begin(body.x), std::end(body.x), std::begin(body.startX));
+      std::copy(std::begin(body.q), std::end(body.q), std::begin(body.startQ));
+    }
+  }
+  see(stage, first);
+  if (first) {
+    begin();
+    chooseFree();
+  }
+  noteSeen();
+  step(false);
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+}
+
+template <int W>
+void JointPack<W>::closePositions(const JointStage& stage) {
+  openAll();
+  gatherMotion<W>(ids_, stage.moved, bodies_);
+  for (int k = 0; k < kMostSteps; ++k) {
+    see(stage, false);
+    noteSeen();
+    if (!step(true)) break;
+  }
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+}
+
+template <int W>
+void JointPack<W>::prepareVelocities(const JointStage& stage) {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const int i = static_cast<int>(k);
+    JointLanes<W>& row = rows_[i];
+    const JointShape& shape = topology_->shapes[i];
+    const bool byKind = shape.seen == JointSeen::kByKind;
+    for (int l = 0; l < W; ++l) {
+      bool free = !givesWay(i, l);
+      if (byKind) free = free && l < lanes_ && states_[i].active[l];
+      const bool bounded = byKind ? free && isBounded(rows_[i], l) : !shape.isGap;
+      row.free.v[l] = free && (!bounded || !read(row.lambda, l).isZero(0)) ? 1 : 0;
+    }
+  }
+  gatherPoses<W>(ids_, stage.pose, bodies_);
+  gatherMasses<W>(ids_, stage.masses, bodies_);
+  findUsed();
+  jointKernels<W>().seeGaps(view());
+  jointKernels<W>().seeLimits(view(), false);
+  seeOthers(stage, false);
+  factorize();
+}
+
+template <int W>
+void JointPack<W>::solveVelocities(const JointStage& stage) {
+  const JointKernels<W>& kernels = jointKernels<W>();
+  openAll();
+  gatherMotion<W>(ids_, stage.moved, bodies_);
+  for (int round = 1;; ++round) {
+    factorizeStale();
+    kernels.aimAtVelocities(view());
+    kernels.substitute(view());
+    if (round == kMostRounds || !holdAtBounds()) break;
+  }
+  kernels.apply(view());
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+}
+
+template <int W>
+void JointPack<W>::finish(Kinds& kinds, double h) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const JointLanes<W>& row = rows_[i];
+    for (int l = 0; l < lanes_; ++l) {
+      const Vec3 lambda = read(row.lambda, l);
+      writeMultiplier(kinds, of_[l]->refs_[i], lambda, h);
+      if (!topology_->shapes[i].pulls) continue;
+      Articulation::Pull& pull = of_[l]->pulls_[i];
+      pull.lambda = lambda;
+      const JointShape& shape = topology_->shapes[i];
+      for (int b = 0; b < shape.bodyCount; ++b) {
+        pull.arm[b] = read(row.arm[b], l);
+        for (int r = 0; shape.hasLinear && r < shape.rows; ++r) {
+          pull.linear[b].row(r) = read(row.linear[b] + 3 * r, l);
+        }
+      }
+    }
+  }
+}
+
+template class JointPack<1>;
+template class JointPack<4>;
+
+}  // namespace physics

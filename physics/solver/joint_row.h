@@ -1,0 +1,42 @@
+// One constraint or force at a pose, whatever its kind, as an articulation takes it.
+#pragma once
+
+#include <array>
+
+#include "physics/kinds.h"
+#include "physics/solver/joint_block.h"
+
+namespace physics {
+
+struct JointRow {
+  static constexpr int kMostBodies = 2, kMostRows = 3;
+  enum class Role : char { kConstraint, kForce, kLoad };  // a load does not change with X
+  Role role = Role::kConstraint;
+  bool active = true;                     // it has anything to say at this pose
+  double low = 0, high = 0, longest = 0;  // bounds of the total
+  Vec3 c = Vec3::Zero();
+  Mat3 alpha = Mat3::Zero();
+  std::array<Mat3, kMostBodies> linear, angular;  // J, by rows
+  std::array<Vec3, kMostBodies> arm;              // world, where it pulls
+};
+
+// What is the same at every pose.
+struct JointKind {
+  int bodyCount = 0, rows = 0;
+  std::array<BodyId, JointRow::kMostBodies> bodies{};
+  JointSeen seen = JointSeen::kByKind;
+  std::array<double, kJointFixed> fixed{};  // of what the kernels evaluate
+  bool hasLinear = false, hasAngular = false;
+  bool pulls = false;  // it has anchors, and so geometric stiffness
+  double regularisation = 0;
+};
+
+struct JointRef {
+  int kind, item;  // in Kinds, in its set
+};
+
+JointKind kindOf(const Kinds& kinds, JointRef ref);
+void evaluateRow(const Kinds& kinds, JointRef ref, const Configuration& at, JointRow& row);
+void writeMultiplier(Kinds& kinds, JointRef ref, const Vec3& lambda, double dt);
+
+}  // namespace physics

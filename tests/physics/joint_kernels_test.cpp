@@ -1,0 +1,186 @@
+// Articulations side by side: the same bytes in any lane, whatever registers, and whoever is
+// beside.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "physics/solver/joint_topology.h"
+#include "physics/world.h"
+#include "tests/physics/stage.h"
+
+namespace physics::testing {
+namespace {
+
+Settings falling() {
+  Settings settings;
+  settings.gravity = Vec3(0, -9.81, 0);
+  return settings;
+}
+
+// Three bodies, each joined to the next one by a ball and socket, a cone and a twist limit.
+std::shared_ptr<const JointTopology> threeLinks() {
+  std::vector<JointRef> refs;
+  std::vector<JointKind> kinds;
+  for (const BodyId first : {1, 2}) {
+    for (const JointSeen seen : {JointSeen::kGap, JointSeen::kCone, JointSeen::kTwist}) {
+      JointKind kind;
+      kind.bodyCount = 2;
+      kind.rows = seen == JointSeen::kGap ? 3 : 1;
+      kind.bodies = {first, first + 1};
+      kind.seen = seen;
+      kind.hasAngular = true;
+      kind.pulls = seen == JointSeen::kGap;
+      refs.push_back({static_cast<int>(seen), first});
+      kinds.push_back(kind);
+    }
+  }
+  const std::vector<BodyId> bodies = {1, 2, 3};
+  const std::vector<InverseMass> masses(4, InverseMass{1, Mat3::Identity()});
+  JointTopologies known;
+  return topologyOf(refs, kinds, bodies, masses, known);
+}
+
+template <int W>
+struct Memory {
+  std::shared_ptr<const JointTopology> topology = threeLinks();
+  std::vector<JointBody<W>> bodies{3};
+  std::vector<JointLanes<W>> rows{topology->shapes.size()};
+  std::vector<JointBlock<W>> blocks{topology->meetings.size()};
+  Num<W> open;
+  std::vector<char> used = std::vector<char>(rows.size(), 1);
+  std::vector<int> usedBelow = std::vector<int>(topology->below.size()),
+                   usedCounts{used.begin(), used.end()};
+
+  JointView<W> view() {
+    return {bodies.data(),
+            rows.data(),
+            blocks.data(),
+            3,
+            static_cast<int>(rows.size()),
+            topology->shapes.data(),
+            topology->columns.data(),
+            topology->below.data(),
+            topology->updates.data(),
+            topology->meetings.data(),
+            &open,
+            used.data(),
+            usedBelow.data(),
+            usedCounts.data()};
+  }
+  // Lane l is a pose, a motion and limits of its own.
+  void fill(int l, unsigned seed) {
+    std::mt19937 random(seed);
+    const auto next = [&] { return random() / 4294967296.0 - 0.5; };
+    open.v[l] = 1;
+    for (JointBody<W>& body : bodies) {
+      body.startQ[0].v[l] = 1;
+      for (int k = 0; k < 3; ++k) {
+        body.startX[k].v[l] = next();
+        body.u[k].v[l] = 0.01 * next();
+        body.theta[k].v[l] = (seed == 3 ? 2 : 0.02) * next();  // one turns far
+        body.inertia[k].v[l] = 5 + next();
+      }
+      body.inverseMass.v[l] = 1;
+    }
+    for (JointLanes<W>& row : rows) {
+      for (Num<W>& fixed : row.fixed) fixed.v[l] = next();
+      row.free.v[l] = 1;
+    }
+  }
+  void work(const JointKernels<W>& kernels) {
+    const JointView<W> s = view();
+    kernels.place(s);
+    kernels.seeGaps(s);
+    kernels.seeLimits(s, true);
+    kernels.chooseLimits(s);
+    bool held[W] = {};
+    for (int round = 0; round < 3; ++round) {
+      kernels.factorize(s);
+      kernels.aimAtErrors(s);
+      kernels.substitute(s);
+      if (!kernels.holdLimits(s, held)) break;
+    }
+    kernels.apply(s);
+    kernels.seeLimits(s, false);
+    kernels.factorize(s);
+    kernels.aimAtVelocities(s);
+    kernels.substitute(s);
+    kernels.apply(s);
+  }
+};
+
+TEST(JointKernels, GiveTheSameBytesInAnyRegisters) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2 here";
+  Memory<4> wide, halves;
+  for (int l = 0; l < 4; ++l) {
+    wide.fill(l, l);
+    halves.fill(l, l);
+  }
+  wide.work(kJointKernelsAvx2Of4);
+  halves.work(kJointKernelsSse2Of4);
+  EXPECT_GT(std::abs(wide.rows[0].lambda[0].v[0]), 1e-6);  // there was something to solve
+  EXPECT_EQ(std::memcmp(wide.bodies.data(), halves.bodies.data(), 3 * sizeof(JointBody<4>)), 0);
+}
+
+TEST(JointKernels, GiveALaneTheBytesThatItHasAlone) {
+  Memory<4> four;
+  for (int l = 0; l < 4; ++l) four.fill(l, l);
+  four.work(jointKernels<4>());
+  for (int l = 0; l < 4; ++l) {
+    Memory<1> one;
+    one.fill(0, l);
+    one.work(jointKernels<1>());
+    for (int body = 0; body < 3; ++body) {
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(one.bodies[body].u[k].v[0], four.bodies[body].u[k].v[l]) << l;
+        EXPECT_EQ(one.bodies[body].theta[k].v[0], four.bodies[body].theta[k].v[l]) << l;
+      }
+    }
+  }
+}
+
+// A trunk and two limbs with limits, thrown by its own number.
+void addFigure(World& world, int number) {
+  BodyId bodies[3];
+  for (int k = 0; k < 3; ++k) {
+    bodies[k] = addBody(world, Capsule{0.1, 0.4}, Vec3(20.0 * number, 1 + 0.6 * k, 0), 1 + k);
+  }
+  for (int k = 0; k < 2; ++k) {
+    BallSocketDef ball;
+    ball.bodies = {bodies[k], bodies[k + 1]};
+    ball.at = Vec3(20.0 * number, 1.3 + 0.6 * k, 0);
+    ConeLimitDef cone;
+    cone.bodies = ball.bodies;
+    cone.axis = Vec3::UnitY();
+    cone.angle = 0.4;
+    TwistLimitDef twist;
+    twist.bodies = ball.bodies;
+    twist.axis = Vec3::UnitY();
+    twist.range = {-0.2, 0.3};
+    world.add(ball);
+    world.add(cone);
+    world.add(twist);
+  }
+  world.setVelocity(bodies[number % 3], {Vec3(number, 3, -1), Vec3(2, 5 - number, number)});
+}
+
+TEST(Articulations, DoNotKnowWhoIsBesideThem) {
+  constexpr int kFigures = 6;
+  World together(falling());
+  for (int number = 0; number < kFigures; ++number) addFigure(together, number);
+  run(together, 120);
+  for (int number = 0; number < kFigures; ++number) {
+    World alone(falling());
+    addFigure(alone, number);
+    run(alone, 120);
+    for (BodyId k = 0; k < 3; ++k) {
+      const Pose &a = alone.bodies().pose[1 + k], &b = together.bodies().pose[1 + 3 * number + k];
+      EXPECT_EQ(a.x, b.x) << number;
+      EXPECT_EQ(a.q.coeffs(), b.q.coeffs()) << number;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace physics::testing
