@@ -172,25 +172,19 @@ void fillSpeculative(const Survey& s, Effect& e) {
 // As physics::takesSmallSteps() has it: joints are then solved as blocks.
 bool takesSmallSteps(const Survey& s) {
   const physics::Settings& settings = s.scene.settings;
-  bool takes = settings.method == Method::kSmallSteps &&
-               settings.stepping == physics::Stepping::kPaper && s.soft.count == 0 &&
-               !(settings.contact && settings.contact->restitution > 0);
-  physics::Kinds kinds;
-  physics::forEachKind(kinds, [&](const auto& kind) {
-    using Kind = std::decay_t<decltype(kind)>;
-    constexpr int bodies = Kind::Item::kBodies;
-    const auto made = s.kinds.find(Kind::kWord);
-    const bool any = made != s.kinds.end() && made->second.count > 0;
-    if (bodies == physics::kMany || bodies > 2) takes = takes && !any;
-  });
-  return takes;
+  return settings.method == Method::kSmallSteps && settings.stepping == physics::Stepping::kPaper;
 }
 
 void fillDirect(const Survey& s, Effect& e) {
-  std::int64_t equalities = 0;
-  for (const auto& [kind, made] : s.kinds) equalities += made.equalities;
   const Method chosen = s.scene.settings.method;
   const bool asked = chosen == Method::kDirect;
+  std::int64_t equalities = 0;  // small steps: of joints, which have arms
+  physics::forEachKind(physics::Kinds{}, [&](const auto& kind) {
+    using Kind = std::decay_t<decltype(kind)>;
+    const auto made = s.kinds.find(Kind::kWord);
+    const bool counts = asked || physics::isAngular<typename Kind::Item>();
+    if (made != s.kinds.end() && counts) equalities += made->second.equalities;
+  });
   e.leftOut = asked && equalities == 0;
   e.on = (asked || takesSmallSteps(s)) && equalities > 0;
   const std::string method = fmt::format("method = \"{}\"", wordOf(chosen));

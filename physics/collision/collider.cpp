@@ -46,7 +46,7 @@ struct Collider::Impl {
 
   struct Step {
     std::span<const Pose> start, end;
-    double margin = 0, slack = 0;
+    double margin = 0;
   };
 
   // Nothing was found, and along the direction that told them apart they do not come near.
@@ -60,20 +60,13 @@ struct Collider::Impl {
     return true;
   }
 
-  // How far a pair may have moved to keep what was found.
-  static double stillness(const Watch& watch, double size, double slack) {
-    return watch.count > 0 ? std::max(kStill * size, slack) : kStill * size;
-  }
-
   // Whether what was found before still holds for surfaces up to `reach` apart.
   static bool holds(const Watch& watch, const Finding& found, const Item& a, const Item& b,
-                    const Relative& pose, double reach, double slack) {
+                    const Relative& pose, double reach) {
     if (reach > watch.reach) return false;
-    const double size = smallerSize(a.solid, b.solid);
-    const double move = stillness(watch, size, slack);
-    const double turn = size > 0 ? move / size : kStill;
-    return (pose.t - found.pose.t).squaredNorm() <= move * move &&
-           (pose.R - found.pose.R).squaredNorm() <= 2 * turn * turn;
+    const double still = kStill * smallerSize(a.solid, b.solid);
+    return (pose.t - found.pose.t).squaredNorm() <= still * still &&
+           (pose.R - found.pose.R).squaredNorm() <= 2 * kStill * kStill;
   }
 
   // Of a way that short, the present points tell enough of what is at its end.
@@ -94,11 +87,11 @@ struct Collider::Impl {
       const double travel = a.travel + b.travel - watch.travel;
       if (watch.count == 0 && watch.distance - travel > reach) return false;
       if (watch.count == 0 && staysApart(watch, a, b, step.margin)) return false;
-      const double still = stillness(watch, smallerSize(a.solid, b.solid), step.slack);
+      const double still = kStill * smallerSize(a.solid, b.solid);
       if (reach <= watch.reach && travel <= still) return false;
     }
     const Relative pose = relativePose(a, b);
-    if (watch.known && holds(watch, found, a, b, pose, reach, step.slack)) return false;
+    if (watch.known && holds(watch, found, a, b, pose, reach)) return false;
     const bool plane = b.solid.kind == Kind::plane;
     watch.known = true;
     watch.travel = a.travel + b.travel;
@@ -192,13 +185,13 @@ std::span<const std::pair<BodyId, BodyId>> Collider::ignored() const {
 }
 
 std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<const Pose> end,
-                                         double margin, double slack) {
+                                         double margin) {
   require(margin >= 0, "collider: margin must not be negative");
   if (!impl_) return {};
   turnTo("broad_phase");
   impl_->pairs.update(start, end, margin);
   turnTo("narrow_phase");
-  impl_->lookAtAll({start, end, margin, slack});
+  impl_->lookAtAll({start, end, margin});
   turnTo("contact");
   return impl_->manifolds;
 }

@@ -56,10 +56,9 @@ class Collider {
   // [m] plus what the two bodies approach each other by. Where a body moves by more than it is
   // thick, the manifold is that of the first touch along the straight sweep (normal and points
   // taken there). The result is sorted by (a, b), deterministic, and valid until the next call. No
-  // allocation once the scene has settled. Within a step: pairs that have moved by less than
-  // `slack` [m] against each other since they were found keep their manifold.
+  // allocation once the scene has settled.
   std::span<const Manifold> find(std::span<const Pose> start, std::span<const Pose> end,
-                                 double margin, double slack = 0);
+                                 double margin);
 
   // True when one of `bodies`, moving from `start` to `end`, leaves the bounds that the last find()
   // looked in: contacts may be missing, call find() again.

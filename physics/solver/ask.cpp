@@ -7,14 +7,12 @@
 namespace physics {
 namespace {
 
-// What contacts may give way by on the average of their load, as a share of the smaller body; and
-// of what an island moves in a step.
-constexpr double kLargestSag = 1.25e-4, kSagOfMotion = 0.005;
+// What contacts may give way by on the average of their load, as a share of the smaller body.
+constexpr double kLargestSag = 1.25e-4;
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 constexpr int kMostSubsteps = 64;
-// What the last velocity sweep may change: of the energy that an island has in g h^2, and of that
-// of its motion.
-constexpr double kRest = 1e-6, kMoving = 1e-3;
+// What the last velocity sweep may change, of the energy that an island has in g h^2 and in motion.
+constexpr double kRest = 1e-6;
 constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved again in each
 
 // What goes with h^2 and is `times` too large.
@@ -24,22 +22,16 @@ int substepsFor(int present, double times) {
 
 }  // namespace
 
-// What islands allow, by their first body: `energy` that a sweep may change, and the square of the
-// way of a step as a share of the size, `travel`, times the masses, `weight`.
+// The energy of islands, by their first body, that a sweep may change a share of.
 void SmallSteps::Impl::weighMotion(const World::Impl& w, const Batch& batch, double h) {
   const Bodies& b = w.bodies;
   const double g2 = w.settings.gravity ? w.settings.gravity->squaredNorm() : 0;
-  const double steps2 = std::pow(w.settings.dt / h, 2);
   for (const BodyId i : batch.bodies) {
-    energy[i] = change[i] = load[i] = sag[i] = travel[i] = weight[i] = 0;
+    energy[i] = change[i] = load[i] = sag[i] = 0;
   }
   for (const BodyId i : batch.bodies) {
     if (b.motion[i] != Motion::kDynamic) continue;
-    const BodyId root = islands[i];
-    const double u2 = moved[i].u.squaredNorm();
-    energy[root] += b.mass[i] * (kRest * g2 * h * h * h * h + kMoving * u2);
-    weight[root] += b.mass[i];
-    if (radius[i] > 0) travel[root] += b.mass[i] * steps2 * u2 / (radius[i] * radius[i]);
+    energy[islands[i]] += b.mass[i] * (g2 * h * h * h * h + moved[i].u.squaredNorm());
   }
 }
 
@@ -104,14 +96,13 @@ void SmallSteps::Impl::ask(World::Impl& w, const Batch& batch, double h) {
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {
-      const double way = weight[root] > 0 ? std::sqrt(travel[root] / weight[root]) : 0;
-      const double share = sag[root] / load[root] / (kLargestSag + kSagOfMotion * way);
-      asked[i] = std::max(asked[i], substepsFor(batch.substeps, share));
+      const double off = sag[root] / load[root];
+      asked[i] = std::max(asked[i], substepsFor(batch.substeps, off / kLargestSag));
     }
     const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;
-    if (relative > 1) askedSweeps[i] = std::min(most, batch.sweeps + 1);
-    if (relative < 0.1) askedSweeps[i] = std::max(1, batch.sweeps - 1);
+    if (relative > kRest) askedSweeps[i] = std::min(most, batch.sweeps + 1);
+    if (relative < 0.1 * kRest) askedSweeps[i] = std::max(1, batch.sweeps - 1);
   }
 }
 

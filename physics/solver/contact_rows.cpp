@@ -193,6 +193,17 @@ void SmallSteps::Impl::fromLanes(Batch& batch) {
   }
 }
 
+// Rows are prepared once and hold for the substeps that follow, but where a body has turned so far
+// that its arms and inertia are others.
+bool SmallSteps::Impl::turnedFar(const Batch& batch) const {
+  constexpr float kFar = 0.05f;  // rad
+  return std::any_of(batch.motions.begin(), batch.motions.end(), [](const LaneMotion& m) {
+    const float squared =
+        m.dtheta[0] * m.dtheta[0] + m.dtheta[1] * m.dtheta[1] + m.dtheta[2] * m.dtheta[2];
+    return squared > kFar * kFar;
+  });
+}
+
 // Multipliers from the lanes to the contacts that are kept.
 void SmallSteps::Impl::takeOver(Batch& batch, double h) {
   physics::takeOver(batch.softRows, batch.soft);

@@ -7,7 +7,7 @@
 namespace physics {
 namespace {
 
-constexpr double kClosed = 1e-5;    // of the larger arm and of the way, or rad
+constexpr double kClosed = 1e-7;    // of the larger arm and of the way, or rad
 constexpr double kFarTurn2 = 1e-2;  // rad^2: below, five terms are exact to 1e-17
 
 // exp(theta) as w, x, y, z.

@@ -8,7 +8,7 @@ namespace physics {
 
 // Contacts from the present poses to where the bodies would be at the end of the step. False: the
 // look met bodies that sleep, which are awake now.
-bool SmallSteps::Impl::lookOnce(World::Impl& w, bool again) {
+bool SmallSteps::Impl::lookOnce(World::Impl& w) {
   Bodies& b = w.bodies;
   for (const BodyId i : b.active) {
     const double dt = halved[i] ? 0.5 * w.settings.dt : w.settings.dt;
@@ -20,8 +20,7 @@ bool SmallSteps::Impl::lookOnce(World::Impl& w, bool again) {
   }
   if (!lookSoft(w)) return false;
   if (!w.touches) return true;
-  const double margin = w.settings.contact->margin;
-  const auto found = w.collider.find(b.pose, w.ahead, margin, again ? margin : 0);
+  const auto found = w.collider.find(b.pose, w.ahead, w.settings.contact->margin);
   if (w.sleep.count > 0) {
     const std::size_t called = w.sleep.called.size();
     for (const Manifold& m : found) {
@@ -70,9 +69,9 @@ void SmallSteps::Impl::gatherSoft(World::Impl& w) {
                    });
 }
 
-void SmallSteps::Impl::look(World::Impl& w, bool again) {
+void SmallSteps::Impl::look(World::Impl& w) {
   if (!w.touches && w.softCollider.empty()) return;
-  while (!lookOnce(w, again)) {
+  while (!lookOnce(w)) {
   }
 }
 

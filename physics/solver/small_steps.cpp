@@ -62,8 +62,6 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   load.resize(bodies);
   sag.resize(bodies);
   energy.resize(bodies);
-  travel.resize(bodies);
-  weight.resize(bodies);
   change.resize(bodies);
 }
 
@@ -83,7 +81,9 @@ void SmallSteps::Impl::advancePart(World::Impl& w, int parts, StepReport& report
     batch.joints.take(articulations, batch.articulations);
     for (int i = 0; i < count; ++i) {
       predict(w, batch, h, i == 0);
-      if (i == 0 && !batch.blocks.empty()) rows(w, batch, h);
+      const bool turned = i > 0 && turnedFar(batch);
+      if (turned) takeOver(batch, h);
+      if ((i == 0 || turned) && !batch.blocks.empty()) rows(w, batch, h);
       lookAgain(w, batch, h);
       noteApproach(w, batch, h);
       substep(w, batch, h, report);
@@ -102,7 +102,7 @@ void SmallSteps::Impl::advancePart(World::Impl& w, int parts, StepReport& report
 // another look in the middle, and so do those that they meet there. The others step in one go.
 void SmallSteps::Impl::advance(World::Impl& w, StepReport& report) {
   std::fill(halved.begin(), halved.end(), 0);  // of those as well that this step wakes
-  look(w, false);
+  look(w);
   bool some = chooseFast(w);
   for (const bool again : {false, true}) {
     if (!some) break;
@@ -110,7 +110,7 @@ void SmallSteps::Impl::advance(World::Impl& w, StepReport& report) {
     if (report.notFinite) return;
     for (const BodyId i : w.bodies.active) halved[i] = halved[i] || steps[i];
     if (again) break;  // these are slow: what was found of them before holds
-    look(w, true);
+    look(w);
     some = chooseMet(w);
   }
   for (const int parts : {1, 2}) {

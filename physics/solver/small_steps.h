@@ -45,8 +45,7 @@ class SmallSteps {
   std::unique_ptr<Impl> impl_;
 };
 
-// True where all that the world has is solved by small steps. Not yet: cloth, soft bodies and ropes
-// of points, restitution, other steppings. These the non-linear sweep takes.
+// True where the world steps by small steps: other steppings are the non-linear sweep's.
 bool takesSmallSteps(const World::Impl& world);
 
 }  // namespace physics

@@ -65,12 +65,12 @@ struct SmallSteps::Impl {
   std::vector<Mat3> inertias;  // world, at X^t, and the turn without joints and contacts: of those
   std::vector<Vec3> spins;     // whose inertia turns with them
   std::vector<double> radius;  // by body, of its shape
-  std::vector<double> load, sag, energy, change, travel, weight;  // by body (island: by its first)
+  std::vector<double> load, sag, energy, change;  // by body (island: by its first)
 
   void learn(World::Impl& w);
   void makeRoom(std::size_t bodies);
-  void look(World::Impl& w, bool again);
-  bool lookOnce(World::Impl& w, bool again);
+  void look(World::Impl& w);
+  bool lookOnce(World::Impl& w);
   bool chooseFast(World::Impl& w);
   bool chooseMet(World::Impl& w);
   bool choose(const World::Impl& w, int parts);
@@ -99,6 +99,7 @@ struct SmallSteps::Impl {
   void solveVelocities(World::Impl& w, Batch& batch, double h);
   void sweepSoft(Batch& batch);
   void substep(World::Impl& w, Batch& batch, double h, StepReport& report);
+  bool turnedFar(const Batch& batch) const;
   void takeOver(Batch& batch, double h);
   void weighMotion(const World::Impl& w, const Batch& batch, double h);
   void weighContacts(const World::Impl& w, const Batch& batch);

@@ -8,7 +8,7 @@
 namespace physics {
 namespace {
 
-constexpr int kPositionSweeps = 2;  // of what is swept one by one
+constexpr int kPositionSweeps = 4;  // of what is swept one by one
 
 // omega and half a substep on, by I^-1 (-omega x I omega).
 Vec3 meanSpin(const Mat3& inertia, const Mat3& inverse, const Vec3& omega, double h) {
@@ -117,7 +117,6 @@ void SmallSteps::Impl::displaceAll(World::Impl& w, Batch& batch, double h) {
 // Positions of what is swept one by one.
 void SmallSteps::Impl::sweepDeformables(World::Impl& w, Batch& batch, double h) {
   if (batch.deformables.empty() && batch.softRows.empty()) return;
-  turnTo("soft");
   Bodies& b = w.bodies;
   const auto place = [&](const Deformable& deformable, bool first) {
     for (const BodyId i : deformable.bodies()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/kinds.h"
+#include "physics/probe.h"
 #include "physics/solver/articulation.h"
 
 namespace physics {
@@ -158,8 +159,11 @@ bool isSlack(const SweptRow<C>& swept) {
 template <class F>
 void forEachRow(SweptRows& rows, const Kinds& kinds, F&& f) {
   forEachKind(kinds, [&](const auto& kind) {
-    using C = typename std::decay_t<decltype(kind)>::Item;
-    for (SweptRow<C>& swept : std::get<std::vector<SweptRow<C>>>(rows)) {
+    using K = std::decay_t<decltype(kind)>;
+    using C = typename K::Item;
+    auto& list = std::get<std::vector<SweptRow<C>>>(rows);
+    if (!list.empty()) turnTo(K::kWord);
+    for (SweptRow<C>& swept : list) {
       f(kind.set.items[swept.item], swept, kind.set.tuned[swept.item].regularisation);
     }
   });

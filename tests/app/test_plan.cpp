@@ -64,7 +64,7 @@ TEST(Plan, StepsTellWhatTheyTurnTo) {
     EXPECT_TRUE(heard("stack").contains(word)) << word;
   }
   EXPECT_TRUE(heard("arm_reach").contains("arm"));
-  EXPECT_TRUE(heard("spring_net").contains("spring"));
+  EXPECT_TRUE(heard("soft_stack").contains("spring"));
 }
 
 TEST(Plan, ListeningChangesNothing) {
