@@ -27,8 +27,8 @@ struct Mesh {
 };
 Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
             std::span<const InverseMass> masses);
-// Of a factor worth having: a net of 10 by 10 points has 100.
-inline constexpr double kMostFill = 100;
+// Of a factor worth having: a net of 10 by 10 has 100. Rows of points are cheap to sweep.
+inline constexpr double kMostFill = 100, kMostFillOfPoints = 16;
 
 // M + K and the rows as one symmetric matrix,
 //   (M + K) d + J^T m = 0,   J d - alpha m = -(c + alpha lambda),   d: change of u, m: of -lambda

@@ -46,7 +46,7 @@ void SmallSteps::Impl::learn(World::Impl& w) {
   deformableOf.assign(w.bodies.pose.size(), -1);
   for (const BodyId root : roots) {
     const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
-    const bool isDirect = mesh.fill <= kMostFill;
+    const bool isDirect = mesh.fill <= (mesh.points ? kMostFillOfPoints : kMostFill);
     if (mesh.points || !isDirect) {
       deformables.emplace_back(rows[root], w.kinds, w.bodies.inverse, isDirect);
       for (const BodyId i : deformables.back().bodies()) {
