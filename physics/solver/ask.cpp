@@ -13,7 +13,7 @@ constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps o
 constexpr int kMostSubsteps = 64;
 // What the last velocity sweep may change, of the energy that an island has in g h^2 and in motion.
 constexpr double kRest = 1e-6;
-constexpr int kMostSweeps = 8, kMostJointedSweeps = 3;  // joints are solved again in each
+constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved again in each
 
 // What goes with h^2 and is `times` too large.
 int substepsFor(int present, double times) {

@@ -22,7 +22,7 @@ double kineticOf(const World& world, BodyId i) {
          0.5 * w.dot(b.inertia[i].cwiseProduct(w));
 }
 
-double energyOf(const World& world) {
+double totalEnergyOf(const World& world) {
   double energy = 0;
   for (BodyId i = 1; i < world.bodies().size(); ++i) {
     if (world.bodies().motion[i] != Motion::kDynamic) continue;
@@ -42,11 +42,11 @@ TEST(SmallStepsRope, HoldsAHeavyBallAndGainsNothing) {
   rope.pins = RopePins::kStart;
   rope.attach = RopeAttachments{std::nullopt, BodyRef{ball}};
   const std::vector<BodyId> nodes = add(world, rope);
-  const double link = 2.7 / 59, start = energyOf(world);
+  const double link = 2.7 / 59, start = totalEnergyOf(world);
   double longest = 0, most = start;
   for (int step = 0; step < 240; ++step) {
     world.step();
-    most = std::max(most, energyOf(world));
+    most = std::max(most, totalEnergyOf(world));
     for (std::size_t k = 1; k < nodes.size(); ++k) {
       const Vec3 apart = world.bodies().pose[nodes[k]].x - world.bodies().pose[nodes[k - 1]].x;
       longest = std::max(longest, apart.norm());
