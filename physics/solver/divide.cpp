@@ -12,6 +12,7 @@ void SmallSteps::clear(Batch& batch) {
   batch.deformables.clear();
   batch.softPairs.clear();
   batch.soft.clear();
+  batch.softRows.clear();
   batch.motions.clear();
   batch.masses.clear();
   batch.slots.clear();

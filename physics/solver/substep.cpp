@@ -71,7 +71,10 @@ void SmallSteps::Impl::predict(World::Impl& w, Batch& batch, double h, bool firs
 
 // Contacts of points and links are looked for anew in every substep: their planes turn quickly.
 void SmallSteps::Impl::lookAgain(World::Impl& w, Batch& batch, double h) {
-  if (batch.softPairs.empty()) return;
+  if (batch.softPairs.empty()) {
+    batch.soft.clear();
+    return;
+  }
   turnTo("soft_contact");
   Bodies& b = w.bodies;
   for (const BodyId i : batch.bodies) {

@@ -76,6 +76,27 @@ TEST(SmallStepsCloth, HangsWithoutStretchingInStrongGravity) {
   EXPECT_LT(lowest, -0.4);
 }
 
+// What has left the ground falls back to it, and not onto where it was looked for before.
+TEST(SmallStepsRope, ThrownUpFromTheGroundItFliesAlongTheParabola) {
+  World world(byDefault(true));
+  addGround(world);
+  RopeDef rope;
+  rope.from = Vec3(0, 0.02, 0);
+  rope.to = Vec3(0.2, 0.02, 0);
+  rope.count = 2;
+  rope.matter.mass = 1;
+  const std::vector<BodyId> nodes = add(world, rope);
+  run(world, 10);
+  for (const BodyId node : nodes) world.setVelocity(node, {Vec3(0, 3, 0), Vec3::Zero()});
+  run(world, 30);
+  EXPECT_TRUE(world.contacts().empty());
+  const double flown = 0.5, height = 0.02 + 3 * flown - 0.5 * 9.81 * flown * flown;
+  for (const BodyId node : nodes) {
+    // Of first order in substeps of 1/240 s: g h t/2 = 0.01 m.
+    EXPECT_NEAR(world.bodies().pose[node].x.y(), height, 0.015);
+  }
+}
+
 // Contacts of what rolls are those of the pose that it has.
 TEST(SmallStepsContacts, ABallThatRollsKeepsItsSpeed) {
   World world(byDefault(true));
