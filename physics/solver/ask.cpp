@@ -10,6 +10,8 @@ namespace {
 // What contacts may give way by on the average of their load, as a share of the smaller body.
 constexpr double kLargestSag = 1.25e-4;
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
+constexpr double kLargestTurn =
+    0.05;  // rad, of what is solved at once: its rows are taken as straight
 constexpr int kMostSubsteps = 64;
 // What the last velocity sweep may change, of the energy that an island has in g h^2 and in motion.
 constexpr double kRest = 1e-6;
@@ -18,6 +20,11 @@ constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved aga
 // What goes with h^2 and is `times` too large.
 int substepsFor(int present, double times) {
   return static_cast<int>(std::min<double>(std::ceil(present * std::sqrt(times)), kMostSubsteps));
+}
+
+// What goes with h, of pieces that turn by so much in a step [rad].
+int substepsForTurn(double turn) {
+  return static_cast<int>(std::min<double>(std::ceil(turn / kLargestTurn), kMostSubsteps));
 }
 
 }  // namespace
@@ -83,6 +90,9 @@ void SmallSteps::Impl::askDeformables(World::Impl& w, const Batch& batch, double
     const double off = deformables[k].strain(w.kinds, {w.bodies.pose, w.bodies.start, h});
     const BodyId first = deformables[k].bodies().front();
     asked[first] = substepsFor(batch.substeps, off / kLargestStrain);
+    if (!deformables[k].isDirect()) continue;
+    const double turn = deformables[k].turn({w.bodies.pose, w.bodies.start, h});
+    asked[first] = std::max(asked[first], substepsForTurn(batch.substeps * turn));
   }
 }
 

@@ -10,6 +10,7 @@
 namespace physics {
 
 using namespace swept;
+
 Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
             std::span<const InverseMass> masses) {
   Mesh mesh;
@@ -59,8 +60,14 @@ Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
     for (const JointRef& ref : refs) {
       if (ref.kind != place) continue;
       std::get<std::vector<SweptRow<C>>>(rows_).emplace_back().item = ref.item;
-      for (const BodyId body : kind.set.items[ref.item].bodies) {
+      const auto& bodies = kind.set.items[ref.item].bodies;
+      for (const BodyId body : bodies) {
         if (masses[body].m > 0) bodies_.push_back(body);
+      }
+      if constexpr (std::is_same_v<C, Link> || std::is_same_v<C, RopeLength>) {
+        for (std::size_t p = 1; p < bodies.size(); ++p) {
+          pieces_.push_back({bodies[p - 1], bodies[p]});
+        }
       }
     }
     ++place;
@@ -70,16 +77,24 @@ Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
   if (direct) factor_ = std::make_unique<MeshFactor>();
 }
 
-void Deformable::preparePositions(const Kinds& kinds, const Configuration& at, bool first,
-                                  std::span<const JointMass> masses,
-                                  std::span<Displacement> moved) {
+void Deformable::evaluate(const JointStage& stage, bool first) {
+  for (const BodyId i : bodies_) {
+    displace(stage.pose[i], stage.moved[i].u, stage.moved[i].theta);
+  }
+  evaluateRows(stage, first);
+  for (const BodyId i : bodies_) stage.pose[i] = stage.start[i];
+}
+
+void Deformable::evaluateRows(const JointStage& stage, bool first) {
+  const Kinds& kinds = stage.kinds;
+  const Configuration at = {stage.pose, stage.start, stage.h};
+  const auto masses = stage.masses;
+  const auto moved = stage.moved;
   const auto prepare = [&]<class C>(const C& item, SweptRow<C>& swept, double regularisation) {
-    if (!first && !factor_) return;
     item.evaluate(at, swept.row);
-    if (first) {
-      swept.pulled = swept.lambda;
-      swept.lambda.setZero();
-    }
+    swept.pulled = swept.lambda;
+    if (first) swept.lambda.setZero();
+    swept.next = swept.lambda;
     swept.swept = false;
     if (!swept.row.active) return;
     swept.constant = errorOf<C>(swept);
@@ -102,7 +117,6 @@ void Deformable::preparePositions(const Kinds& kinds, const Configuration& at, b
 }
 
 void Deformable::sweepPositions(std::span<Displacement> moved) {
-  if (factor_) return solve(true, moved);
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if (!swept.swept) return;
     change(item, swept,
@@ -125,7 +139,7 @@ void Deformable::prepareVelocities(const Kinds& kinds, const Configuration& at,
 }
 
 void Deformable::sweepVelocities(std::span<Displacement> moved) {
-  if (factor_) return solve(false, moved);
+  if (factor_) return solveVelocities(moved);
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if (swept.swept) change(item, swept, along(item, swept, moved), moved);
   });
@@ -149,6 +163,15 @@ double Deformable::strain(const Kinds& kinds, const Configuration& at) {
     }
   });
   return load > 0 ? std::sqrt(sum / load) : 0;
+}
+
+double Deformable::turn(const Configuration& at) const {
+  double most = 0;
+  for (const auto& [a, b] : pieces_) {
+    const Vec3 now = at.now[b].x - at.now[a].x, start = at.start[b].x - at.start[a].x;
+    most = std::max(most, std::atan2(start.cross(now).norm(), start.dot(now)));
+  }
+  return most;
 }
 
 void Deformable::finish(Kinds& kinds, double dt) const {

@@ -30,6 +30,9 @@ Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
 // Of a factor worth having: a net of 10 by 10 has 100. Rows of points are cheap to sweep.
 inline constexpr double kMostFill = 100, kMostFillOfPoints = 16;
 
+// Keeps the factor regular where rows repeat each other: relative to the row's own A.
+inline constexpr double kRedundancy = 1e-7;
+
 // M + K and the rows as one symmetric matrix,
 //   (M + K) d + J^T m = 0,   J d - alpha m = -(c + alpha lambda),   d: change of u, m: of -lambda
 // with the geometric stiffness K of what pulls, without which a heavy end on light links gains
@@ -53,12 +56,12 @@ class Deformable {
   bool isDirect() const { return factor_ != nullptr; }
   std::size_t size() const { return size_; }
 
-  // Evaluates all rows at `at`, where `moved` would take the bodies. The first time of a substep,
-  // or again, for another step of Newton's.
-  void preparePositions(const Kinds& kinds, const Configuration& at, bool first,
-                        std::span<const JointMass> masses, std::span<Displacement> moved);
-  // The contacts of its points: their normal rows are solved with the others.
-  void takeContacts(std::span<SoftRow> rows, double push);
+  // Evaluates all rows where `moved` takes the bodies from the start of the substep: the first time
+  // in it, or again, for another step of Newton's.
+  void evaluate(const JointStage& stage, bool first);
+  // Of one that is solved at once: all of the position stage, with the normal rows of the contacts
+  // of its points; an overlap is taken back by at most `push` [m].
+  void solvePositions(const JointStage& stage, double push, std::span<SoftRow> rows);
   void sweepPositions(std::span<Displacement> moved);
   // At the end of the substep.
   void prepareVelocities(const Kinds& kinds, const Configuration& at,
@@ -66,18 +69,32 @@ class Deformable {
   void sweepVelocities(std::span<Displacement> moved);
   // What holds is off by, relative to its extent, on the average of what it carries.
   double strain(const Kinds& kinds, const Configuration& at);
+  // The most that a piece between two points has turned by in the substep [rad].
+  double turn(const Configuration& at) const;
   // Writes the multipliers back to the kinds' sets.
   void finish(Kinds& kinds, double dt) const;
 
  private:
+  void evaluateRows(const JointStage& stage, bool first);
   void takeMasses(std::span<const JointMass> masses);
   int placeOf(BodyId body) const;  // in bodies_; -1: it does not move
-  void solve(bool positions, std::span<Displacement> moved);
+  void takeContacts(std::span<SoftRow> rows, double push);
+  double givesOf(const SoftRow& row) const;
+  void aimAtPositions(std::span<const Displacement> moved);
+  template <class C>
+  typename Set<C>::Vector changeAlong(const C& item, const SweptRow<C>& swept) const;
+  double changeAlong(const SoftRow& row) const;
+  void solveProgram(bool first, std::span<const Displacement> moved);
+  bool chooseAgain(std::span<const Displacement> moved);
+  double shareOfStep(std::span<const Pose> pose, std::span<const Displacement> moved) const;
+  void takePositions(double share, std::span<Displacement> moved);
+  bool isClosed(std::span<const Displacement> moved) const;
+  void solveVelocities(std::span<Displacement> moved);
   void factorize(bool positions);
   template <class F>
   void emit(bool positions, F&& entry);
   double errorNow(const SoftRow& row, bool positions, std::span<const Displacement> moved) const;
-  void chooseFree(bool positions, std::span<const Displacement> moved);
+  void chooseFree(bool positions, bool first, std::span<const Displacement> moved);
   bool holdAtBounds(std::span<Displacement> moved);
 
   SweptRows rows_;
@@ -87,6 +104,8 @@ class Deformable {
   int unknowns_ = 0;                    // of bodies
   std::vector<Mat3> inertia_;           // by place
   std::vector<double> mass_;
+  std::vector<Displacement> from_;             // by place: u_0
+  std::vector<std::array<BodyId, 2>> pieces_;  // straight ones, between two points
   std::vector<SoftRow*> contacts_;
   std::vector<std::array<BodyId, 3>> laid_;  // of the contacts that the factor has rows for
   double push_ = 0;                          // overlap taken back in a substep, at the most [m]

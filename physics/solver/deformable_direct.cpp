@@ -1,6 +1,5 @@
 // Ropes and what else has a factor with little fill: all rows at once.
 #include <algorithm>
-#include <type_traits>
 
 #include "physics/solver/deformable.h"
 
@@ -10,20 +9,12 @@ using namespace swept;
 
 namespace {
 
-// Keeps the factor regular where rows repeat each other: relative to the row's own A.
-constexpr double kRedundancy = 1e-7;
-constexpr int kMostRounds = 6;  // of finding which rows are at a bound
+constexpr int kMostSteps = 20;   // of Newton's; two to four are enough, but where a rope is caught
+constexpr int kMostRounds = 30;  // of finding which rows are at a bound
 
 template <class C>
 bool isBounded(const SweptRow<C>& swept) {
   return swept.low > -kUnbounded || swept.high < kUnbounded || swept.row.longest < kUnbounded;
-}
-
-// How a piece along the unit vector d resists being turned while it pulls:
-//   pull/length (1 - d d^T)
-Mat3 turningStiffness(const Vec3& d, double pull, double length) {
-  if (!(pull > 0) || !(length > 0)) return Mat3::Zero();
-  return pull / length * (Mat3::Identity() - d * d.transpose());
 }
 
 // What a row that may be held is off by, at what the bodies have moved by.
@@ -35,160 +26,6 @@ typename Set<C>::Vector rowError(const C& item, const SweptRow<C>& swept, bool p
 }
 
 }  // namespace
-
-int Deformable::placeOf(BodyId body) const {
-  const auto found = std::lower_bound(bodies_.begin(), bodies_.end(), body);
-  if (found == bodies_.end() || *found != body) return -1;
-  return static_cast<int>(found - bodies_.begin());
-}
-
-void Deformable::takeContacts(std::span<SoftRow> rows, double push) {
-  contacts_.clear();
-  push_ = push;
-  std::vector<std::array<BodyId, 3>> found;
-  for (SoftRow& row : rows) {
-    const bool own = placeOf(row.from) >= 0 || placeOf(row.to) >= 0;
-    if (!own || !(row.inverse > 0)) continue;
-    row.owned = true;
-    row.held = true;
-    row.lambda = 0;
-    row.friction.setZero();
-    contacts_.push_back(&row);
-    found.push_back({row.from, row.to, row.body});
-  }
-  if (found == laid_) return;
-  laid_ = std::move(found);
-  factor_->slots.clear();
-}
-
-void Deformable::takeMasses(std::span<const JointMass> masses) {
-  const std::size_t count = bodies_.size();
-  const bool isNew = unknown_.empty();
-  unknown_.resize(count);
-  turns_.resize(count);
-  inertia_.resize(count);
-  mass_.resize(count);
-  if (isNew) unknowns_ = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const JointMass& mass = masses[bodies_[k]];
-    mass_[k] = 1 / mass.inverse;
-    if (isNew) {
-      turns_[k] = !mass.inertia.isZero(0);
-      unknown_[k] = unknowns_;
-      unknowns_ += turns_[k] ? 6 : 3;
-    }
-    if (turns_[k]) inertia_[k] = mass.inertia.inverse();
-  }
-  factor_->stale = true;
-}
-
-// entry(row, column, value) of the lower triangle, always the same ones in the same order.
-template <class F>
-void Deformable::emit(bool positions, F&& entry) {
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    for (int i = 0; i < 3; ++i) {
-      entry(unknown_[k] + i, unknown_[k] + i, mass_[k]);
-      if (!turns_[k]) continue;
-      for (int j = 0; j <= i; ++j)
-        entry(unknown_[k] + 3 + i, unknown_[k] + 3 + j, inertia_[k](i, j));
-    }
-  }
-  // Between two points, on what they move by against each other.
-  const auto pull = [&](BodyId a, BodyId b, const Mat3& stiffness) {
-    const int pa = placeOf(a), pb = placeOf(b);
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        if (pa >= 0 && j <= i) entry(unknown_[pa] + i, unknown_[pa] + j, stiffness(i, j));
-        if (pb >= 0 && j <= i) entry(unknown_[pb] + i, unknown_[pb] + j, stiffness(i, j));
-        if (pa >= 0 && pb >= 0) {
-          entry(unknown_[std::max(pa, pb)] + i, unknown_[std::min(pa, pb)] + j, -stiffness(i, j));
-        }
-      }
-    }
-  };
-  int at = unknowns_;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    const bool free = swept.swept && !swept.held;
-    if constexpr (std::is_same_v<C, Link> || std::is_same_v<C, RopeLength>) {
-      const double pulls = positions && swept.row.active ? -swept.pulled[0] : 0;
-      const double length =
-          (item.length + swept.row.c[0]) / static_cast<double>(item.bodies.size() - 1);
-      Vec3 along = Vec3::Zero();
-      for (std::size_t p = 1; p < item.bodies.size(); ++p) {
-        if (swept.row.active) along += swept.row.linear[p - 1].transpose();
-        pull(item.bodies[p - 1], item.bodies[p], turningStiffness(along, pulls, length));
-      }
-    }
-    for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-      const int place = placeOf(item.bodies[b]);
-      if (place < 0) continue;
-      for (int r = 0; r < C::kRows; ++r) {
-        for (int j = 0; j < 3; ++j) {
-          if constexpr (C::kLinear) {
-            entry(at + r, unknown_[place] + j, free ? swept.row.linear[b](r, j) : 0);
-          }
-          if constexpr (isAngular<C>()) {
-            if (turns_[place]) {
-              entry(at + r, unknown_[place] + 3 + j, free ? swept.row.angular[b](r, j) : 0);
-            }
-          }
-        }
-      }
-    }
-    for (int r = 0; r < C::kRows; ++r) {
-      for (int j = 0; j <= r; ++j) {
-        const double gives = free ? swept.alpha(r, j) : 0;
-        const double least = free ? kRedundancy * swept.own : 1;
-        entry(at + r, at + j, -gives - (r == j ? least : 0));
-      }
-    }
-    at += C::kRows;
-  });
-  for (const SoftRow* row : contacts_) {
-    for (const bool second : {false, true}) {
-      const int place = placeOf(second ? row->to : row->from);
-      if (place < 0) continue;
-      const double share = row->held ? 0 : second ? row->along : 1 - row->along;
-      for (int j = 0; j < 3; ++j) entry(at, unknown_[place] + j, share * row->n[j]);
-    }
-    // What it does to a body that is not of these: as a compliance.
-    const Vec3 lever = row->arm.cross(row->n);
-    const int place = placeOf(row->body);
-    for (int j = 0; place >= 0 && j < 3; ++j) {
-      entry(at, unknown_[place] + j, row->held ? 0 : -row->n[j]);
-      if (turns_[place]) entry(at, unknown_[place] + 3 + j, row->held ? 0 : -lever[j]);
-    }
-    const double body = place < 0 ? row->inverseMass + lever.dot(row->inertia * lever) : 0;
-    entry(at, at, row->held ? -1 : -(body + kRedundancy / row->inverse));
-    ++at;
-  }
-}
-
-void Deformable::factorize(bool positions) {
-  MeshFactor& f = *factor_;
-  f.stale = false;
-  if (f.slots.empty()) {
-    f.entries.clear();
-    int size = 0;
-    emit(positions, [&](int row, int column, double value) {
-      f.entries.emplace_back(row, column, value);
-      size = std::max(size, row + 1);
-    });
-    f.matrix.resize(size, size);
-    f.matrix.setFromTriplets(f.entries.begin(), f.entries.end());
-    for (const auto& entry : f.entries) {
-      f.slots.push_back(&f.matrix.coeffRef(entry.row(), entry.col()) - f.matrix.valuePtr());
-    }
-    f.entries = {};
-    f.factor.analyzePattern(f.matrix);
-    f.right.resize(size);
-  } else {
-    std::fill_n(f.matrix.valuePtr(), f.matrix.nonZeros(), 0.0);
-    std::size_t next = 0;
-    emit(positions, [&](int, int, double value) { f.matrix.valuePtr()[f.slots[next++]] += value; });
-  }
-  f.factor.factorize(f.matrix);
-}
 
 // Rows that the solution would take past a bound are held there, and the others are to be solved
 // for again.
@@ -229,9 +66,10 @@ double Deformable::errorNow(const SoftRow& row, bool positions,
 }
 
 // A row at its bound is free where it would move into what it may do.
-void Deformable::chooseFree(bool positions, std::span<const Displacement> moved) {
+void Deformable::chooseFree(bool positions, bool first, std::span<const Displacement> moved) {
   for (SoftRow* row : contacts_) {
-    const bool held = !(row->lambda > 0) && errorNow(*row, positions, moved) >= 0;
+    const bool carried = first ? !row->held : row->lambda > 0;
+    const bool held = !carried && errorNow(*row, positions, moved) >= 0;
     factor_->stale = factor_->stale || held != row->held;
     row->held = held;
   }
@@ -240,15 +78,203 @@ void Deformable::chooseFree(bool positions, std::span<const Displacement> moved)
     if (!swept.swept || !isBounded<C>(swept)) return;
     using Vector = typename Set<C>::Vector;
     const Vector wanted = swept.lambda - rowError(item, swept, true, moved);
-    const bool held = swept.lambda.isZero(0) && clamped<C>(swept, wanted) == swept.lambda;
+    const bool held = swept.lambda.isZero(0) && swept.pulled.isZero(0) &&
+                      clamped<C>(swept, wanted) == swept.lambda;
     factor_->stale = factor_->stale || held != swept.held;
     swept.held = held;
   });
 }
 
-void Deformable::solve(bool positions, std::span<Displacement> moved) {
+// Of the quadratic program at what was evaluated last, for the change d of u and for lambda itself:
+//   (M + K) d - J^T lambda = -M (u - u_0),   J d + alpha lambda = -c
+void Deformable::aimAtPositions(std::span<const Displacement> moved) {
   MeshFactor& f = *factor_;
-  chooseFree(positions, moved);
+  f.right.setZero();
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const Displacement& m = moved[bodies_[k]];
+    f.right.segment<3>(unknown_[k]) = -mass_[k] * (m.u - from_[k].u);
+    if (turns_[k]) {
+      f.right.segment<3>(unknown_[k] + 3) = -(inertia_[k] * (m.theta - from_[k].theta));
+    }
+  }
+  int at = unknowns_;
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if (swept.swept && !swept.held) {
+      f.right.template segment<C::kRows>(at) =
+          kRedundancy * swept.own * swept.lambda - swept.constant - along(item, swept, moved);
+    } else if (swept.swept && !swept.next.isZero(0)) {
+      for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+        const int place = placeOf(item.bodies[b]);
+        if (place < 0) continue;
+        const int to = unknown_[place];
+        if constexpr (C::kLinear) {
+          f.right.segment<3>(to) += swept.row.linear[b].transpose() * swept.next;
+        }
+        if constexpr (isAngular<C>()) {
+          if (turns_[place]) {
+            f.right.segment<3>(to + 3) += swept.row.angular[b].transpose() * swept.next;
+          }
+        }
+      }
+    }
+    at += C::kRows;
+  });
+  for (const SoftRow* row : contacts_) {
+    f.right[at] = row->held ? 0 : givesOf(*row) * row->lambda - errorNow(*row, true, moved);
+    ++at;
+  }
+}
+
+// The row's J times d.
+template <class C>
+typename Set<C>::Vector Deformable::changeAlong(const C& item, const SweptRow<C>& swept) const {
+  typename Set<C>::Vector sum = Set<C>::Vector::Zero();
+  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+    const int place = placeOf(item.bodies[b]);
+    if (place < 0) continue;
+    const auto& d = factor_->solution;
+    if constexpr (C::kLinear) sum += swept.row.linear[b] * d.template segment<3>(unknown_[place]);
+    if constexpr (isAngular<C>()) {
+      if (turns_[place]) {
+        sum += swept.row.angular[b] * d.template segment<3>(unknown_[place] + 3);
+      }
+    }
+  }
+  return sum;
+}
+
+double Deformable::changeAlong(const SoftRow& row) const {
+  double sum = 0;
+  const auto& d = factor_->solution;
+  for (const bool second : {false, true}) {
+    const int place = placeOf(second ? row.to : row.from);
+    if (place < 0) continue;
+    sum += (second ? row.along : 1 - row.along) * row.n.dot(d.segment<3>(unknown_[place]));
+  }
+  const int place = placeOf(row.body);
+  if (place < 0) {
+    const Vec3 lever = row.arm.cross(row.n);
+    return sum + (row.inverseMass + lever.dot(row.inertia * lever)) * (row.next - row.lambda);
+  }
+  sum -= row.n.dot(d.segment<3>(unknown_[place]));
+  if (turns_[place]) sum -= row.arm.cross(row.n).dot(d.segment<3>(unknown_[place] + 3));
+  return sum;
+}
+
+// Primal-dual: rows that the solution takes past a bound are held there, those held that it moves
+// into what they may do are free. False: there is none.
+bool Deformable::chooseAgain(std::span<const Displacement> moved) {
+  bool any = false;
+  int at = unknowns_;
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    const int first = at;
+    at += C::kRows;
+    if (!swept.swept) return;
+    using Vector = typename Set<C>::Vector;
+    if (swept.held) {
+      const Vector error = swept.constant + along(item, swept, moved) + changeAlong(item, swept) +
+                           swept.alpha * swept.next;
+      if (clamped<C>(swept, Vector(swept.next - error)) == swept.next) return;
+      swept.held = false;
+      any = true;
+      return;
+    }
+    const Vector wanted = -factor_->solution.template segment<C::kRows>(first);
+    swept.next = wanted;
+    if (!isBounded<C>(swept)) return;
+    swept.next = clamped<C>(swept, wanted);
+    if (swept.next != wanted) swept.held = any = true;
+  });
+  for (SoftRow* row : contacts_) {
+    const double wanted = -factor_->solution[at++];
+    if (row->held) {
+      if (errorNow(*row, true, moved) + changeAlong(*row) >= 0) continue;
+      row->held = false;
+      any = true;
+      continue;
+    }
+    row->next = std::max(wanted, 0.0);
+    if (wanted < 0) row->held = any = true;
+  }
+  factor_->stale = factor_->stale || any;
+  return any;
+}
+
+// The part of d by which no piece between two points turns so far that the rows, which were
+// evaluated before, say nothing of where it ends.
+double Deformable::shareOfStep(std::span<const Pose> pose,
+                               std::span<const Displacement> moved) const {
+  constexpr double kFar = 0.5;  // rad
+  double most = 0;
+  const auto change = [&](BodyId body) -> Vec3 {
+    const int place = placeOf(body);
+    return place < 0 ? Vec3::Zero().eval() : Vec3(factor_->solution.segment<3>(unknown_[place]));
+  };
+  for (const auto& [a, b] : pieces_) {
+    const Vec3 now = pose[b].x + moved[b].u - pose[a].x - moved[a].u, by = change(b) - change(a);
+    const double squared = now.squaredNorm();
+    if (squared > 0) most = std::max(most, now.cross(by).norm() / squared);
+  }
+  return most > kFar ? kFar / most : 1;
+}
+
+void Deformable::takePositions(double share, std::span<Displacement> moved) {
+  MeshFactor& f = *factor_;
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    moved[bodies_[k]].u += share * f.solution.segment<3>(unknown_[k]);
+    if (turns_[k]) moved[bodies_[k]].theta += share * f.solution.segment<3>(unknown_[k] + 3);
+  }
+  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
+    if (swept.swept) swept.lambda += share * (swept.next - swept.lambda);
+  });
+  for (SoftRow* row : contacts_) {
+    const double change = share * (row->next - row->lambda);
+    row->lambda += change;
+    if (placeOf(row->body) < 0) giveBody(*row, change * row->n, moved);
+  }
+}
+
+// Which rows are at a bound, and what solves the others.
+void Deformable::solveProgram(bool first, std::span<const Displacement> moved) {
+  MeshFactor& f = *factor_;
+  chooseFree(true, first, moved);
+  for (int round = 1;; ++round) {
+    if (f.stale) factorize(true);
+    aimAtPositions(moved);
+    f.solution = f.factor.solve(f.right);
+    if (!chooseAgain(moved) || round == kMostRounds) return;
+  }
+}
+
+void Deformable::solvePositions(const JointStage& stage, double push, std::span<SoftRow> rows) {
+  evaluate(stage, true);
+  takeContacts(rows, push);
+  from_.clear();
+  for (const BodyId i : bodies_) from_.push_back(stage.moved[i]);
+  for (int step = 1;; ++step) {
+    solveProgram(step == 1, stage.moved);
+    const double share = shareOfStep(stage.pose, stage.moved);
+    takePositions(share, stage.moved);
+    if (step == kMostSteps || (share == 1 && isClosed(stage.moved))) return;
+    evaluate(stage, false);
+  }
+}
+
+// What the last step of Newton's changed is nothing to the way that was made.
+bool Deformable::isClosed(std::span<const Displacement> moved) const {
+  constexpr double kClosed = 1e-7;
+  double change = 0, way = 0;
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    change = std::max(change, factor_->solution.segment<3>(unknown_[k]).squaredNorm());
+    way = std::max(way, moved[bodies_[k]].u.squaredNorm());
+  }
+  return change <= kClosed * kClosed * way;
+}
+
+void Deformable::solveVelocities(std::span<Displacement> moved) {
+  constexpr bool positions = false;
+  MeshFactor& f = *factor_;
+  chooseFree(positions, false, moved);
   for (int round = 1;; ++round) {
     if (f.stale) factorize(positions);
     f.right.setZero();

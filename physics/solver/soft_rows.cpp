@@ -78,7 +78,8 @@ void prepareSoftRows(std::span<const SoftContact> contacts, std::span<const Pose
 
 void warmStart(std::span<SoftRow> rows, std::span<Displacement> moved) {
   for (const SoftRow& row : rows) {
-    if (row.lambda > 0) giveTo(row, row.lambda * row.n + row.tangents * row.friction, moved);
+    if (row.owned || !(row.lambda > 0)) continue;
+    giveTo(row, row.lambda * row.n + row.tangents * row.friction, moved);
   }
 }
 

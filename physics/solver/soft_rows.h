@@ -20,7 +20,7 @@ struct SoftRow {
   Vec3 n, arm, turn;                              // I^-1 (r x n)
   Mat3 inertia;                                   // of body, inverse
   double inverse = 0;                             // 1/A
-  double gap = 0, open = 0, lambda = 0;
+  double gap = 0, open = 0, lambda = 0, next = 0;
   Eigen::Matrix<double, 3, 2> tangents;
   Eigen::Matrix2d tangentInverse;
   Eigen::Vector2d friction;

@@ -8,7 +8,7 @@
 namespace physics {
 namespace {
 
-constexpr int kPositionSweeps = 4;  // of what is swept one by one
+constexpr int kPositionSweeps = 4;  // of what is swept
 
 // omega and half a substep on, by I^-1 (-omega x I omega).
 Vec3 meanSpin(const Mat3& inertia, const Mat3& inverse, const Vec3& omega, double h) {
@@ -117,31 +117,22 @@ void SmallSteps::Impl::displaceAll(World::Impl& w, Batch& batch, double h) {
   }
 }
 
-// Positions of what is swept one by one.
+// Positions of deformables and their contacts.
 void SmallSteps::Impl::sweepDeformables(World::Impl& w, Batch& batch, double h) {
   if (batch.deformables.empty() && batch.softRows.empty()) return;
-  Bodies& b = w.bodies;
-  const auto place = [&](const Deformable& deformable, bool first) {
-    for (const BodyId i : deformable.bodies()) {
-      b.pose[i] = b.start[i];
-      if (!first) displace(b.pose[i], moved[i].u, moved[i].theta);
-    }
-  };
   const double push = w.settings.contact ? w.settings.contact->maxSeparationSpeed * h : 0;
-  const auto evaluate = [&](Deformable& deformable, bool first) {
-    place(deformable, false);
-    deformable.preparePositions(w.kinds, {b.pose, b.start, h}, first, masses, moved);
-    place(deformable, true);
-  };
+  const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
   for (const int k : batch.deformables) {
-    evaluate(deformables[k], true);
-    if (deformables[k].isDirect()) deformables[k].takeContacts(batch.softRows, push);
+    if (deformables[k].isDirect()) {
+      deformables[k].solvePositions(stage, push, batch.softRows);
+    } else {
+      deformables[k].evaluate(stage, true);
+    }
   }
   warmStart(batch.softRows, moved);
   for (int s = 0; s < kPositionSweeps; ++s) {
     for (const int k : batch.deformables) {
-      if (s > 0 && deformables[k].isDirect()) evaluate(deformables[k], false);
-      deformables[k].sweepPositions(moved);
+      if (!deformables[k].isDirect()) deformables[k].sweepPositions(moved);
     }
     physics::sweepPositions(batch.softRows, push, moved);
   }

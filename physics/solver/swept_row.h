@@ -26,7 +26,8 @@ struct SweptRow {
   Response<C> response;                                       // M^-1 J^T
   Matrix inverse = Matrix::Zero(), alpha = Matrix::Zero();    // (A + alpha)^-1
   Vector constant = Vector::Zero(), lambda = Vector::Zero();  // c - J u_0
-  Vector pulled = Vector::Zero();                             // lambda of the last substep
+  Vector pulled = Vector::Zero(), next = Vector::Zero();      // lambda of the last substep or step
+                                                              // of Newton's; and of its next one
   double low = 0, high = 0;
 };
 

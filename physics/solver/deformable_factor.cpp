@@ -1,0 +1,183 @@
+// The factor of ropes, and of what else has one with little fill: what its matrix is made of.
+#include <algorithm>
+#include <type_traits>
+
+#include "physics/solver/deformable.h"
+
+namespace physics {
+
+using namespace swept;
+
+namespace {
+
+// How a piece along the unit vector d resists being turned while it pulls:
+//   pull/length (1 - d d^T)
+Mat3 turningStiffness(const Vec3& d, double pull, double length) {
+  if (!(pull > 0) || !(length > 0)) return Mat3::Zero();
+  return pull / length * (Mat3::Identity() - d * d.transpose());
+}
+
+}  // namespace
+
+int Deformable::placeOf(BodyId body) const {
+  const auto found = std::lower_bound(bodies_.begin(), bodies_.end(), body);
+  if (found == bodies_.end() || *found != body) return -1;
+  return static_cast<int>(found - bodies_.begin());
+}
+
+void Deformable::takeContacts(std::span<SoftRow> rows, double push) {
+  contacts_.clear();
+  push_ = push;
+  std::vector<std::array<BodyId, 3>> found;
+  for (SoftRow& row : rows) {
+    const bool own = placeOf(row.from) >= 0 || placeOf(row.to) >= 0;
+    if (!own || !(row.inverse > 0)) continue;
+    row.owned = true;
+    row.held = !(row.lambda > 0);
+    row.lambda = row.next = 0;
+    row.friction.setZero();
+    contacts_.push_back(&row);
+    found.push_back({row.from, row.to, row.body});
+  }
+  if (found == laid_) return;
+  laid_ = std::move(found);
+  factor_->slots.clear();
+}
+
+void Deformable::takeMasses(std::span<const JointMass> masses) {
+  const std::size_t count = bodies_.size();
+  const bool isNew = unknown_.empty();
+  unknown_.resize(count);
+  turns_.resize(count);
+  inertia_.resize(count);
+  mass_.resize(count);
+  if (isNew) unknowns_ = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const JointMass& mass = masses[bodies_[k]];
+    mass_[k] = 1 / mass.inverse;
+    if (isNew) {
+      turns_[k] = !mass.inertia.isZero(0);
+      unknown_[k] = unknowns_;
+      unknowns_ += turns_[k] ? 6 : 3;
+    }
+    if (turns_[k]) inertia_[k] = mass.inertia.inverse();
+  }
+  factor_->stale = true;
+}
+
+// What a contact gives way by: the part of A of a body that is not of these.
+double Deformable::givesOf(const SoftRow& row) const {
+  const double least = kRedundancy / row.inverse;
+  if (placeOf(row.body) >= 0) return least;
+  const Vec3 lever = row.arm.cross(row.n);
+  return row.inverseMass + lever.dot(row.inertia * lever) + least;
+}
+
+// entry(row, column, value) of the lower triangle, always the same ones in the same order.
+template <class F>
+void Deformable::emit(bool positions, F&& entry) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    for (int i = 0; i < 3; ++i) {
+      entry(unknown_[k] + i, unknown_[k] + i, mass_[k]);
+      if (!turns_[k]) continue;
+      for (int j = 0; j <= i; ++j)
+        entry(unknown_[k] + 3 + i, unknown_[k] + 3 + j, inertia_[k](i, j));
+    }
+  }
+  // Between two points, on what they move by against each other.
+  const auto pull = [&](BodyId a, BodyId b, const Mat3& stiffness) {
+    const int pa = placeOf(a), pb = placeOf(b);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        if (pa >= 0 && j <= i) entry(unknown_[pa] + i, unknown_[pa] + j, stiffness(i, j));
+        if (pb >= 0 && j <= i) entry(unknown_[pb] + i, unknown_[pb] + j, stiffness(i, j));
+        if (pa >= 0 && pb >= 0) {
+          entry(unknown_[std::max(pa, pb)] + i, unknown_[std::min(pa, pb)] + j, -stiffness(i, j));
+        }
+      }
+    }
+  };
+  int at = unknowns_;
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    const bool free = swept.swept && !swept.held;
+    if constexpr (std::is_same_v<C, Link> || std::is_same_v<C, RopeLength>) {
+      const double pulls = positions && swept.row.active ? -swept.pulled[0] : 0;
+      const double length =
+          (item.length + swept.row.c[0]) / static_cast<double>(item.bodies.size() - 1);
+      Vec3 along = Vec3::Zero();
+      for (std::size_t p = 1; p < item.bodies.size(); ++p) {
+        if (swept.row.active) along += swept.row.linear[p - 1].transpose();
+        pull(item.bodies[p - 1], item.bodies[p], turningStiffness(along, pulls, length));
+      }
+    }
+    for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+      const int place = placeOf(item.bodies[b]);
+      if (place < 0) continue;
+      for (int r = 0; r < C::kRows; ++r) {
+        for (int j = 0; j < 3; ++j) {
+          if constexpr (C::kLinear) {
+            entry(at + r, unknown_[place] + j, free ? swept.row.linear[b](r, j) : 0);
+          }
+          if constexpr (isAngular<C>()) {
+            if (turns_[place]) {
+              entry(at + r, unknown_[place] + 3 + j, free ? swept.row.angular[b](r, j) : 0);
+            }
+          }
+        }
+      }
+    }
+    for (int r = 0; r < C::kRows; ++r) {
+      for (int j = 0; j <= r; ++j) {
+        const double gives = free ? swept.alpha(r, j) : 0;
+        const double least = free ? kRedundancy * swept.own : 1;
+        entry(at + r, at + j, -gives - (r == j ? least : 0));
+      }
+    }
+    at += C::kRows;
+  });
+  for (const SoftRow* row : contacts_) {
+    for (const bool second : {false, true}) {
+      const int place = placeOf(second ? row->to : row->from);
+      if (place < 0) continue;
+      const double share = row->held ? 0 : second ? row->along : 1 - row->along;
+      for (int j = 0; j < 3; ++j) entry(at, unknown_[place] + j, share * row->n[j]);
+    }
+    // What it does to a body that is not of these: as a compliance.
+    const Vec3 lever = row->arm.cross(row->n);
+    const int place = placeOf(row->body);
+    for (int j = 0; place >= 0 && j < 3; ++j) {
+      entry(at, unknown_[place] + j, row->held ? 0 : -row->n[j]);
+      if (turns_[place]) entry(at, unknown_[place] + 3 + j, row->held ? 0 : -lever[j]);
+    }
+    entry(at, at, row->held ? -1 : -givesOf(*row));
+    ++at;
+  }
+}
+
+void Deformable::factorize(bool positions) {
+  MeshFactor& f = *factor_;
+  f.stale = false;
+  if (f.slots.empty()) {
+    f.entries.clear();
+    int size = 0;
+    emit(positions, [&](int row, int column, double value) {
+      f.entries.emplace_back(row, column, value);
+      size = std::max(size, row + 1);
+    });
+    f.matrix.resize(size, size);
+    f.matrix.setFromTriplets(f.entries.begin(), f.entries.end());
+    for (const auto& entry : f.entries) {
+      f.slots.push_back(&f.matrix.coeffRef(entry.row(), entry.col()) - f.matrix.valuePtr());
+    }
+    f.entries = {};
+    f.factor.analyzePattern(f.matrix);
+    f.right.resize(size);
+  } else {
+    std::fill_n(f.matrix.valuePtr(), f.matrix.nonZeros(), 0.0);
+    std::size_t next = 0;
+    emit(positions, [&](int, int, double value) { f.matrix.valuePtr()[f.slots[next++]] += value; });
+  }
+  f.factor.factorize(f.matrix);
+}
+
+}  // namespace physics
