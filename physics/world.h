@@ -75,6 +75,10 @@ class World {
   // Joints do this for their bodies unless they `collide`.
   void ignoreCollision(BodyId a, BodyId b);
 
+  // Threads that step() shares its work with, the caller's included: 1 at first. The same bytes for
+  // any number.
+  void setThreads(int count);
+
   StepReport step();  // moves everything by settings().dt
 
   // Between steps:

@@ -17,12 +17,14 @@
 #include "physics/methods/sequential_impulses.h"
 #include "physics/solver/small_steps.h"
 #include "physics/stepping.h"
+#include "physics/workers.h"
 #include "physics/world.h"
 
 namespace physics {
 
 struct World::Impl {
   Settings settings;
+  Workers workers;
   std::int64_t stepCount = 0;
   Bodies bodies;
   std::vector<Load> loads;     // for the next step, cleared after it

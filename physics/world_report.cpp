@@ -62,6 +62,8 @@ std::int64_t World::stepCount() const { return impl_->stepCount; }
 const Bodies& World::bodies() const { return impl_->bodies; }
 int World::bodyCount() const { return impl_->bodies.size(); }
 
+void World::setThreads(int count) { impl_->workers.setCount(count); }
+
 void World::setVelocity(BodyId body, const Velocity& velocity) {
   require(body > 0 && body < bodyCount(), "no such body");
   callAwake(*impl_, body);

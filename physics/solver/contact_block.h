@@ -19,16 +19,20 @@
 
 namespace physics {
 
-// One body, 64 bytes: what it moves by in this substep, and has since the rows were prepared.
+// One body, 64 bytes: what it moves by in this substep, and has since the rows were prepared. Turns
+// are in units in which its inertia is one: theta = root * turn, inverse inertia = root root^T, so
+// that a row has one vector, w = root^T (r x n), for the rate that it sees and the turn it gives.
 struct alignas(64) LaneMotion {
-  float u[3] = {}, theta[3] = {}, pad[2] = {};     // this substep [m, rad]
-  float du[3] = {}, dtheta[3] = {}, more[2] = {};  // since the rows were prepared
+  float u[3] = {}, turn[3] = {}, pad[2] = {};     // this substep [m, sqrt(kg) m]
+  float du[3] = {}, dturn[3] = {}, more[2] = {};  // since the rows were prepared
 };
 
-// What rows need of a body: 1/m and the symmetric world inverse inertia xx yy zz xy xz yz.
+// What rows need of a body: 1/m, and the lower triangle 00 10 20 11 21 22 of the root. Where
+// nothing turns the body the root is kUnturned: its turns are seen, and what it is given is lost.
 struct alignas(32) LaneMass {
+  static constexpr float kUnturned = 1.f / (1 << 30) / (1 << 10);
   float inverse = 0;
-  float inertia[6] = {};
+  float root[6] = {};
   float pad = 0;
 };
 
@@ -38,29 +42,36 @@ struct Softness {
 };
 
 struct alignas(32) ContactBlock {
-  static constexpr int kLanes = 8, kPoints = 4;
+  static constexpr int kLanes = 8, kPoints = 4, kCouplings = 6;
   struct Point {
-    float torqueA[3][8], torqueB[3][8];  // r x n
-    // I^-1 (r x n). Until rows are prepared: the arms r, from the centres [m].
-    float turnA[3][8], turnB[3][8];
-    float gap[8], lambda[8], inverse[8];  // 1/A; 0: no such point
-    float open[8];                        // max(c, 0), of the substep's end
-    float held[8];                        // of lambda, what the spring carries without giving way
-    float lever[8];                       // from the centre of friction
+    float wA[3][8], wB[3][8];     // until rows are prepared: the arms r, from the centres [m]
+    float lambda[8], inverse[8];  // 1/A; 0: no such point
+    float open[8];                // max(c, 0), of the substep's end
+    float lever[8];               // from the centre of friction
   };
   struct Tangent {
-    float d[3][8], torqueA[3][8], torqueB[3][8], turnA[3][8], turnB[3][8], lambda[8];
+    float d[3][8], wA[3][8], wB[3][8], lambda[8];
+    float twisted[8];  // what a twist of one changes its rate by
   };
+  // First what every velocity sweep reads.
+  int bodyA[8], bodyB[8];  // slots; 0 where nothing moves
+  float massA[8], massB[8], n[3][8];
   Point point[kPoints];
-  Tangent tangent[2];
-  float n[3][8];
-  float massA[8], massB[8], inverse11[8], inverse12[8], inverse22[8];
+  float coupling[kCouplings][8];  // J M^-1 J^T between points 01 02 03 12 13 23
   float twistA[3][8], twistB[3][8], twistInverse[8], twist[8];
+  Tangent tangent[2];
+  float inverse11[8], inverse12[8], inverse22[8];
   float staticFriction[8], dynamicFriction[8];
+  float gap[kPoints][8];
+  float held[kPoints][8];   // of lambda, what the spring carries without giving way
   float scale[8], rate[8];  // softness
   float change[8];          // sum of A dlambda^2 in the last velocity sweep
-  int bodyA[8], bodyB[8];   // slots; 0 where nothing moves
   int contact[8];           // index of the contact, -1: an empty lane
+  int points = kPoints;     // no lane has more
+};
+
+struct VelocitySweep {
+  bool first = false, last = false;  // of a substep: gaps are measured, the change is summed up
 };
 
 struct ContactKernels {
@@ -69,9 +80,8 @@ struct ContactKernels {
   void (*prepare)(ContactBlock* blocks, int count, const LaneMass* masses, float reach);
   void (*warmStart)(ContactBlock* blocks, int count, LaneMotion* motions);
   void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, float push);
-  // Before the velocity sweeps of a substep: how far points are open.
-  void (*measure)(ContactBlock* blocks, int count, const LaneMotion* motions);
-  void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions);
+  void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions,
+                          VelocitySweep which);
 };
 
 // Chosen once, by what the processor has.

@@ -1,281 +1,253 @@
 // The kernels of contact_block.h, for the two files that compile them. KERNELS names the table.
 #include "physics/solver/contact_block.h"
+#include "physics/solver/contact_prepare.h"
 #include "physics/solver/lanes.h"
 
 namespace physics {
 namespace {
 
-constexpr float kTiny = 1e-30f;
-
-struct Body {
-  Lanes3 u, theta;
-  Lanes pad[2];
-  Lanes3 du, dtheta;
+template <int kCount>
+struct Count {
+  static constexpr int value = kCount;
 };
 
-// Eight bodies, as they lie, into lanes and back.
-inline void gather(const int (&slot)[8], const LaneMotion* motions, Body& body) {
-  Lanes* rows = &body.u.x;
+struct Moved {
+  Lanes3 u, turn;
+};
+
+// Eight bodies, as they lie, into lanes and back. What has no mass is not written: blocks that
+// meet it may be swept at the same time.
+inline Moved gather(const int (&slot)[8], const LaneMotion* motions) {
+  Lanes rows[8];
   for (int l = 0; l < 8; ++l) rows[l] = load(motions[slot[l]].u);
   transpose(rows);
+  return {{rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}};
 }
-inline void gatherAll(const int (&slot)[8], const LaneMotion* motions, Body& body) {
-  gather(slot, motions, body);
+inline Moved gatherSince(const int (&slot)[8], const LaneMotion* motions) {
   Lanes rows[8];
   for (int l = 0; l < 8; ++l) rows[l] = load(motions[slot[l]].du);
   transpose(rows);
-  body.du = {rows[0], rows[1], rows[2]};
-  body.dtheta = {rows[3], rows[4], rows[5]};
+  return {{rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}};
 }
-inline void scatter(const int (&slot)[8], Body& body, LaneMotion* motions) {
-  Lanes* rows = &body.u.x;
+inline void scatter(const int (&slot)[8], Lanes mass, const Moved& body, LaneMotion* motions) {
+  const Lanes zero = all(0);
+  Lanes rows[8] = {body.u.x, body.u.y, body.u.z, body.turn.x, body.turn.y, body.turn.z, zero, zero};
   transpose(rows);
+  const unsigned moves = positive(mass);
   for (int l = 0; l < 8; ++l) {
-    if (slot[l] != 0) store(motions[slot[l]].u, rows[l]);
+    if (moves >> l & 1) store(motions[slot[l]].u, rows[l]);
   }
-}
-
-inline Lanes rateAlong(const Lanes3& d, const Lanes3& torqueA, const Lanes3& torqueB, const Body& a,
-                       const Body& b) {
-  return dot(d, a.u - b.u) + dot(torqueA, a.theta) - dot(torqueB, b.theta);
 }
 
 template <class Row>
-inline void give(const Row& row, const Lanes3& d, Lanes massA, Lanes massB, Lanes impulse, Body& a,
-                 Body& b) {
-  a.u = a.u + d * (massA * impulse);
-  b.u = b.u - d * (massB * impulse);
-  a.theta = a.theta + load(row.turnA) * impulse;
-  b.theta = b.theta - load(row.turnB) * impulse;
-}
-
-inline Lanes3 times(const Lanes (&inertia)[6], const Lanes3& v) {
-  return {inertia[0] * v.x + inertia[3] * v.y + inertia[4] * v.z,
-          inertia[3] * v.x + inertia[1] * v.y + inertia[5] * v.z,
-          inertia[4] * v.x + inertia[5] * v.y + inertia[2] * v.z};
-}
-
-struct Inertias {
-  Lanes mass, inertia[6];
-};
-inline Inertias gatherMass(const int (&slot)[8], const LaneMass* masses) {
-  Lanes rows[8];
-  for (int l = 0; l < 8; ++l) rows[l] = load(&masses[slot[l]].inverse);
-  transpose(rows);
-  return {rows[0], {rows[1], rows[2], rows[3], rows[4], rows[5], rows[6]}};
+inline Lanes rateOf(const Row& row, Lanes along, const Moved& a, const Moved& b) {
+  return along + dot(load(row.wA), a.turn) - dot(load(row.wB), b.turn);
 }
 
 template <class Row>
-inline Lanes prepareRow(Row& row, const Lanes3& d, const Lanes3& armA, const Lanes3& armB,
-                        const Inertias& a, const Inertias& b) {
-  const Lanes3 torqueA = cross(armA, d), torqueB = cross(armB, d);
-  const Lanes3 turnA = times(a.inertia, torqueA), turnB = times(b.inertia, torqueB);
-  store(row.torqueA, torqueA);
-  store(row.torqueB, torqueB);
-  store(row.turnA, turnA);
-  store(row.turnB, turnB);
-  return a.mass + b.mass + dot(torqueA, turnA) + dot(torqueB, turnB);
+inline void turn(const Row& row, Lanes impulse, Moved& a, Moved& b) {
+  a.turn = a.turn + load(row.wA) * impulse;
+  b.turn = b.turn - load(row.wB) * impulse;
 }
 
-// A unit vector normal to n: across its smaller of x and z.
-inline Lanes3 anyNormal(const Lanes3& n) {
-  const Lanes zero = all(0), x2 = n.x * n.x, z2 = n.z * n.z, test = z2 - x2;
-  const Lanes3 d = {wherePositive(test, zero, zero - n.y), wherePositive(test, n.z, n.x),
-                    wherePositive(test, zero - n.y, zero)};
-  return d * (all(1) / root(dot(d, d)));
+inline void push(const ContactBlock& m, const Lanes3& impulse, Moved& a, Moved& b) {
+  a.u = a.u + impulse * load(m.massA);
+  b.u = b.u - impulse * load(m.massB);
 }
 
-inline void prepareFriction(ContactBlock& m, const Lanes3& n, const Inertias& a, const Inertias& b,
-                            const Lanes3& centreA, const Lanes3& centreB) {
-  const Lanes zero = all(0), one = all(1), tiny = all(kTiny);
-  const Lanes3 d1 = anyNormal(n), d2 = cross(n, d1);
-  store(m.tangent[0].d, d1);
-  store(m.tangent[1].d, d2);
-  const Lanes a11 = prepareRow(m.tangent[0], d1, centreA, centreB, a, b);
-  const Lanes a22 = prepareRow(m.tangent[1], d2, centreA, centreB, a, b);
-  const Lanes a12 = dot(load(m.tangent[0].torqueA), load(m.tangent[1].turnA)) +
-                    dot(load(m.tangent[0].torqueB), load(m.tangent[1].turnB));
-  const Lanes determinant = a11 * a22 - a12 * a12;
-  const Lanes inverse = wherePositive(determinant, one / larger(determinant, tiny), zero);
-  store(m.inverse11, a22 * inverse);
-  store(m.inverse12, zero - a12 * inverse);
-  store(m.inverse22, a11 * inverse);
-  const Lanes3 twistA = times(a.inertia, n), twistB = times(b.inertia, n);
-  store(m.twistA, twistA);
-  store(m.twistB, twistB);
-  const Lanes twist = dot(n, twistA + twistB);
-  store(m.twistInverse, wherePositive(twist, one / larger(twist, tiny), zero));
-  // The last friction, which the host left as a world vector in the `lambda` of both and `change`.
-  const Lanes3 last = {load(m.tangent[0].lambda), load(m.tangent[1].lambda), load(m.change)};
-  store(m.tangent[0].lambda, dot(last, d1));
-  store(m.tangent[1].lambda, dot(last, d2));
+inline void twist(const ContactBlock& m, Lanes impulse, Moved& a, Moved& b) {
+  a.turn = a.turn + load(m.twistA) * impulse;
+  b.turn = b.turn - load(m.twistB) * impulse;
 }
 
-inline void prepareBlock(ContactBlock& m, const LaneMass* masses, float reach) {
-  const Lanes zero = all(0), one = all(1), tiny = all(kTiny);
-  const Inertias a = gatherMass(m.bodyA, masses), b = gatherMass(m.bodyB, masses);
-  store(m.massA, a.mass);
-  store(m.massB, b.mass);
-  const Lanes3 n = load(m.n);
-  Lanes3 centreA = {zero, zero, zero}, centreB = centreA;
-  Lanes sum = tiny;
-  for (const ContactBlock::Point& p : m.point) {
-    const Lanes exists = load(p.inverse);  // 1 or 0, from the host
-    const Lanes3 armA = load(p.turnA), armB = load(p.turnB);
-    const Lanes near = larger(smaller(all(2) - load(p.gap) / all(reach), one), all(1e-3f));
-    const Lanes weight = near * exists;
-    centreA = centreA + armA * weight;
-    centreB = centreB + armB * weight;
-    sum = sum + weight;
-  }
-  centreA = centreA * (one / sum);
-  centreB = centreB * (one / sum);
-  for (ContactBlock::Point& p : m.point) {
-    const Lanes exists = load(p.inverse);
-    const Lanes3 armA = load(p.turnA), armB = load(p.turnB), off = armA - centreA;
-    store(p.lever, root(dot(off, off)));
-    const Lanes resistance = prepareRow(p, n, armA, armB, a, b);
-    store(p.inverse, wherePositive(resistance * exists, one / larger(resistance, tiny), zero));
-  }
-  prepareFriction(m, n, a, b, centreA, centreB);
-}
-
+template <int kCount>
 inline void warmStartBlock(ContactBlock& m, LaneMotion* motions) {
-  Body a, b;
-  gather(m.bodyA, motions, a);
-  gather(m.bodyB, motions, b);
-  const Lanes3 n = load(m.n);
-  const Lanes massA = load(m.massA), massB = load(m.massB);
+  Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
   Lanes sum = all(0);
-  for (ContactBlock::Point& p : m.point) {
-    const Lanes lambda = load(p.lambda);
+  for (int i = 0; i < kCount; ++i) {
+    const Lanes lambda = load(m.point[i].lambda);
     sum = sum + lambda;
-    a.theta = a.theta + load(p.turnA) * lambda;
-    b.theta = b.theta - load(p.turnB) * lambda;
+    turn(m.point[i], lambda, a, b);
   }
-  a.u = a.u + n * (massA * sum);
-  b.u = b.u - n * (massB * sum);
-  for (ContactBlock::Tangent& t : m.tangent) {
-    give(t, load(t.d), massA, massB, load(t.lambda), a, b);
-  }
-  const Lanes twist = load(m.twist);
-  a.theta = a.theta + load(m.twistA) * twist;
-  b.theta = b.theta - load(m.twistB) * twist;
-  scatter(m.bodyA, a, motions);
-  scatter(m.bodyB, b, motions);
+  const ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
+  const Lanes along1 = load(t1.lambda), along2 = load(t2.lambda);
+  turn(t1, along1, a, b);
+  turn(t2, along2, a, b);
+  twist(m, load(m.twist), a, b);
+  push(m, load(m.n) * sum + load(t1.d) * along1 + load(t2.d) * along2, a, b);
+  scatter(m.bodyA, load(m.massA), a, motions);
+  scatter(m.bodyB, load(m.massB), b, motions);
 }
 
-inline Lanes gapOf(const ContactBlock::Point& p, const Lanes3& n, const Body& a, const Body& b) {
-  return load(p.gap) + dot(n, a.du - b.du) + dot(load(p.torqueA), a.dtheta) -
-         dot(load(p.torqueB), b.dtheta);
+// The gap of point i: `apart` is what the centres have moved along n.
+inline Lanes gapOf(const ContactBlock& m, int i, Lanes apart, const Moved& a, const Moved& b) {
+  return load(m.gap[i]) + rateOf(m.point[i], apart, a, b);
 }
 
-inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float push) {
-  Body a, b;
-  gatherAll(m.bodyA, motions, a);
-  gatherAll(m.bodyB, motions, b);
+// What point i was given, to the rates of those that come after it.
+template <int kCount>
+inline void tellOthers(const ContactBlock& m, int i, Lanes delta, Lanes (&v)[kCount]) {
+  for (int j = i + 1; j < kCount; ++j) v[j] = v[j] + load(m.coupling[couplingOf(i, j)]) * delta;
+}
+
+template <int kCount>
+inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float pushed) {
+  Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
+  const Moved sinceA = gatherSince(m.bodyA, motions), sinceB = gatherSince(m.bodyB, motions);
   const Lanes3 n = load(m.n);
-  const Lanes massA = load(m.massA), massB = load(m.massB), zero = all(0), one = all(1);
-  const Lanes soft = load(m.scale);
-  Lanes deepest = all(kTiny);
-  for (const ContactBlock::Point& p : m.point) deepest = larger(deepest, zero - gapOf(p, n, a, b));
-  const Lanes share = smaller(soft * load(m.rate), all(push) / deepest);
-  for (ContactBlock::Point& p : m.point) {
-    const Lanes c = gapOf(p, n, a, b), lambda = load(p.lambda);
-    const Lanes v = rateAlong(n, load(p.torqueA), load(p.torqueB), a, b);
-    const Lanes scale = wherePositive(c, one, soft);
-    const Lanes aim = wherePositive(c, c, share * c);
-    const Lanes yields = (one - scale) * (lambda - load(p.held));
-    const Lanes total = larger(lambda - load(p.inverse) * (scale * v + aim) - yields, zero);
-    store(p.lambda, total);
-    give(p, n, massA, massB, total - lambda, a, b);
+  const Lanes zero = all(0), one = all(1), soft = load(m.scale);
+  const Lanes along = dot(n, a.u - b.u), apart = dot(n, sinceA.u - sinceB.u);
+  Lanes c[kCount], v[kCount], deepest = all(kTiny), sum = zero;
+  for (int i = 0; i < kCount; ++i) {
+    c[i] = gapOf(m, i, apart, sinceA, sinceB);
+    v[i] = rateOf(m.point[i], along, a, b);
+    deepest = larger(deepest, zero - c[i]);
   }
-  scatter(m.bodyA, a, motions);
-  scatter(m.bodyB, b, motions);
+  const Lanes share = smaller(soft * load(m.rate), all(pushed) / deepest);
+  for (int i = 0; i < kCount; ++i) {
+    ContactBlock::Point& p = m.point[i];
+    const Lanes lambda = load(p.lambda), scale = wherePositive(c[i], one, soft);
+    const Lanes aim = wherePositive(c[i], c[i], share * c[i]);
+    const Lanes yields = (one - scale) * (lambda - load(m.held[i]));
+    const Lanes total = larger(lambda - yields - load(p.inverse) * (scale * v[i] + aim), zero);
+    const Lanes delta = total - lambda;
+    store(p.lambda, total);
+    tellOthers(m, i, delta, v);
+    turn(p, delta, a, b);
+    sum = sum + delta;
+  }
+  push(m, n * sum, a, b);
+  scatter(m.bodyA, load(m.massA), a, motions);
+  scatter(m.bodyB, load(m.massB), b, motions);
+}
+
+// lambda, where it is at most nu_s limit, else nu_d limit its way.
+inline Lanes onSegment(Lanes lambda, Lanes staticLimit, Lanes dynamicLimit) {
+  const Lanes opposite = all(0) - lambda;
+  return wherePositive(lambda - staticLimit, dynamicLimit,
+                       wherePositive(opposite - staticLimit, all(0) - dynamicLimit, lambda));
 }
 
 // The part of |lambda| <= nu_s limit, else of length nu_d limit.
 inline Lanes onDisc(Lanes squared, Lanes staticLimit, Lanes dynamicLimit) {
-  return wherePositive(squared - staticLimit * staticLimit,
-                       dynamicLimit / root(larger(squared, all(kTiny))), all(1));
+  const Lanes beyond = squared - staticLimit * staticLimit;
+  if (positive(beyond) == 0) return all(1);  // nothing slides: no root to wait for
+  return wherePositive(beyond, dynamicLimit / root(larger(squared, all(kTiny))), all(1));
 }
 
-inline void sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const Lanes3& n, Body& a,
-                          Body& b) {
+// Twist and friction, where the points carry `normal`, and `turning` about their centre. Returned:
+// the impulse of friction.
+inline Lanes3 sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const Lanes3& between,
+                            Moved& a, Moved& b) {
   const Lanes nuS = load(m.staticFriction), nuD = load(m.dynamicFriction);
-  const Lanes twist = load(m.twist);
-  const Lanes wanted = twist - load(m.twistInverse) * dot(n, a.theta - b.theta);
-  const Lanes kept = wanted * onDisc(wanted * wanted, nuS * turning, nuD * turning);
-  store(m.twist, kept);
-  a.theta = a.theta + load(m.twistA) * (kept - twist);
-  b.theta = b.theta - load(m.twistB) * (kept - twist);
   ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
   const Lanes3 d1 = load(t1.d), d2 = load(t2.d);
-  const Lanes v1 = rateAlong(d1, load(t1.torqueA), load(t1.torqueB), a, b);
-  const Lanes v2 = rateAlong(d2, load(t2.torqueA), load(t2.torqueB), a, b);
-  const Lanes last1 = load(t1.lambda), last2 = load(t2.lambda), cross = load(m.inverse12);
-  const Lanes w1 = last1 - (load(m.inverse11) * v1 + cross * v2);
-  const Lanes w2 = last2 - (cross * v1 + load(m.inverse22) * v2);
+  const Lanes rate = dot(load(m.twistA), a.turn) - dot(load(m.twistB), b.turn);
+  const Lanes rate1 = rateOf(t1, dot(d1, between), a, b);
+  const Lanes rate2 = rateOf(t2, dot(d2, between), a, b);
+  const Lanes twisted = load(m.twist), wanted = twisted - load(m.twistInverse) * rate;
+  const Lanes kept = onSegment(wanted, nuS * turning, nuD * turning);
+  const Lanes more = kept - twisted;
+  store(m.twist, kept);
+  const Lanes v1 = rate1 + load(t1.twisted) * more, v2 = rate2 + load(t2.twisted) * more;
+  const Lanes last1 = load(t1.lambda), last2 = load(t2.lambda), across = load(m.inverse12);
+  const Lanes w1 = last1 - (load(m.inverse11) * v1 + across * v2);
+  const Lanes w2 = last2 - (across * v1 + load(m.inverse22) * v2);
   const Lanes share = onDisc(w1 * w1 + w2 * w2, nuS * normal, nuD * normal);
-  const Lanes massA = load(m.massA), massB = load(m.massB);
-  store(t1.lambda, w1 * share);
-  store(t2.lambda, w2 * share);
-  give(t1, d1, massA, massB, w1 * share - last1, a, b);
-  give(t2, d2, massA, massB, w2 * share - last2, a, b);
+  const Lanes total1 = w1 * share, total2 = w2 * share;
+  store(t1.lambda, total1);
+  store(t2.lambda, total2);
+  twist(m, more, a, b);
+  turn(t1, total1 - last1, a, b);
+  turn(t2, total2 - last2, a, b);
+  return d1 * (total1 - last1) + d2 * (total2 - last2);
 }
 
 // How far each point is open where the substep has moved the bodies to.
+template <int kCount>
 inline void measureBlock(ContactBlock& m, const LaneMotion* motions) {
-  Body a, b;
-  gatherAll(m.bodyA, motions, a);
-  gatherAll(m.bodyB, motions, b);
-  const Lanes3 n = load(m.n);
-  for (ContactBlock::Point& p : m.point) store(p.open, larger(gapOf(p, n, a, b), all(0)));
+  const Moved a = gatherSince(m.bodyA, motions), b = gatherSince(m.bodyB, motions);
+  const Lanes apart = dot(load(m.n), a.u - b.u);
+  for (int i = 0; i < kCount; ++i) {
+    store(m.point[i].open, larger(gapOf(m, i, apart, a, b), all(0)));
+  }
 }
 
-inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions) {
-  Body a, b;
-  gather(m.bodyA, motions, a);
-  gather(m.bodyB, motions, b);
-  const Lanes3 n = load(m.n);
-  const Lanes massA = load(m.massA), massB = load(m.massB), zero = all(0);
-  Lanes normal = zero, turning = zero, change = zero;
-  for (ContactBlock::Point& p : m.point) {
-    const Lanes lambda = load(p.lambda), inverse = load(p.inverse);
-    const Lanes v = rateAlong(n, load(p.torqueA), load(p.torqueB), a, b);
-    const Lanes total = larger(lambda - inverse * (v + load(p.open)), zero);
-    const Lanes delta = total - lambda;
+template <int kCount>
+inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions, VelocitySweep which) {
+  if (which.first) measureBlock<kCount>(m, motions);
+  Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
+  const Lanes3 n = load(m.n), between = a.u - b.u;
+  const Lanes zero = all(0), along = dot(n, between);
+  Lanes v[kCount], deltas[kCount], normal = zero, turning = zero, sum = zero;
+  for (int i = 0; i < kCount; ++i) v[i] = rateOf(m.point[i], along, a, b);
+  for (int i = 0; i < kCount; ++i) {
+    ContactBlock::Point& p = m.point[i];
+    const Lanes lambda = load(p.lambda);
+    const Lanes total = larger(lambda - load(p.inverse) * (v[i] + load(p.open)), zero);
+    const Lanes delta = deltas[i] = total - lambda;
     store(p.lambda, total);
-    give(p, n, massA, massB, delta, a, b);
+    tellOthers(m, i, delta, v);
+    turn(p, delta, a, b);
+    sum = sum + delta;
     normal = normal + total;
     turning = turning + load(p.lever) * total;
-    change = change + wherePositive(inverse, delta * delta / larger(inverse, all(kTiny)), zero);
   }
-  store(m.change, change);
-  sweepFriction(m, normal, turning, n, a, b);
-  scatter(m.bodyA, a, motions);
-  scatter(m.bodyB, b, motions);
+  if (which.last) {
+    Lanes change = zero;
+    for (int i = 0; i < kCount; ++i) {
+      const Lanes inverse = load(m.point[i].inverse), squared = deltas[i] * deltas[i];
+      change = change + wherePositive(inverse, squared / larger(inverse, all(kTiny)), zero);
+    }
+    store(m.change, change);
+  }
+  const Lanes3 friction = sweepFriction(m, normal, turning, between, a, b);
+  push(m, n * sum + friction, a, b);
+  scatter(m.bodyA, load(m.massA), a, motions);
+  scatter(m.bodyB, load(m.massB), b, motions);
+}
+
+// f(block, number of its points as a constant) of every block.
+template <class F>
+inline void forEachBlock(ContactBlock* blocks, int count, F&& f) {
+  for (int i = 0; i < count; ++i) {
+    switch (blocks[i].points) {
+      case 1:
+        f(blocks[i], Count<1>{});
+        break;
+      case 2:
+        f(blocks[i], Count<2>{});
+        break;
+      case 3:
+        f(blocks[i], Count<3>{});
+        break;
+      default:
+        f(blocks[i], Count<4>{});
+    }
+  }
 }
 
 void prepareAll(ContactBlock* blocks, int count, const LaneMass* masses, float reach) {
   for (int i = 0; i < count; ++i) prepareBlock(blocks[i], masses, reach);
 }
 void warmStartAll(ContactBlock* blocks, int count, LaneMotion* motions) {
-  for (int i = 0; i < count; ++i) warmStartBlock(blocks[i], motions);
+  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
+    warmStartBlock<points.value>(block, motions);
+  });
 }
 void sweepPositionsAll(ContactBlock* blocks, int count, LaneMotion* motions, float push) {
-  for (int i = 0; i < count; ++i) sweepPositionsBlock(blocks[i], motions, push);
+  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
+    sweepPositionsBlock<points.value>(block, motions, push);
+  });
 }
-void measureAll(ContactBlock* blocks, int count, const LaneMotion* motions) {
-  for (int i = 0; i < count; ++i) measureBlock(blocks[i], motions);
-}
-void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions) {
-  for (int i = 0; i < count; ++i) sweepVelocitiesBlock(blocks[i], motions);
+void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions, VelocitySweep which) {
+  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
+    sweepVelocitiesBlock<points.value>(block, motions, which);
+  });
 }
 
 }  // namespace
 
-const ContactKernels KERNELS = {prepareAll, warmStartAll, sweepPositionsAll, measureAll,
-                                sweepVelocitiesAll};
+const ContactKernels KERNELS = {prepareAll, warmStartAll, sweepPositionsAll, sweepVelocitiesAll};
 
 }  // namespace physics

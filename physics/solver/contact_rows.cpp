@@ -20,13 +20,41 @@ Softness softness(double periods, double zeta) {
   return {static_cast<float>(1 - 1 / d), static_cast<float>(omega / (2 * zeta + omega))};
 }
 
+constexpr int kColours = 64, kColourLists = 2 * kColours;
+
+// The last colour of either kind is the overflow: a block each.
+int laneStride(int list) { return list % kColours == kColours - 1 ? ContactBlock::kLanes : 1; }
+
+// Blocks up to `end`, which are of one colour if they are `independent`.
+void addRun(int end, bool independent, std::vector<BlockRun>& runs) {
+  const int begin = runs.empty() ? 0 : runs.back().first + runs.back().count, count = end - begin;
+  if (count == 0) return;
+  const bool shared = independent && count >= 2 * kLeastBlocks;
+  if (!shared && !runs.empty() && !runs.back().shared) {
+    runs.back().count += count;
+  } else {
+    runs.push_back({begin, count, shared});
+  }
+}
+
 }  // namespace
+
+int SmallSteps::Impl::colourOf(const Bodies& b, const KeptContact& c) {
+  const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0;
+  auto& used = movesA && movesB ? colours : coloursFixed;
+  const std::uint64_t taken = (movesA ? used[c.a] : 0) | (movesB ? used[c.b] : 0);
+  int colour = kColours - 1;
+  if (~taken != 0) colour = std::min(__builtin_ctzll(~taken), kColours - 1);
+  if (movesA) used[c.a] |= std::uint64_t{1} << colour;
+  if (movesB) used[c.b] |= std::uint64_t{1} << colour;
+  return colour + (movesA && movesB ? 0 : kColours);
+}
 
 // Contacts of one colour share no body that moves. First those of two bodies that move, then those
 // with what does not, so that a sweep ends with nothing driven into a wall. A body with more
-// contacts than there are colours has the others one by one.
+// contacts than there are colours has the others one by one. Of a colour those with most points
+// come first: a block takes as long as its largest manifold.
 void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
-  constexpr int kColours = 64, kLists = 2 * kColours;
   const Bodies& b = w.bodies;
   batch.slots.assign(1, kWorldBody);
   if (batch.contacts.empty()) return batch.blocks.clear();
@@ -37,36 +65,35 @@ void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
   }
   batch.motions.assign(batch.slots.size(), LaneMotion{});
   batch.masses.assign(batch.slots.size(), LaneMass{});
-  byColour.resize(kLists);
-  for (auto& list : byColour) list.clear();
-  for (const int k : batch.contacts) {
-    const KeptContact& c = contacts[k];
-    const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0;
-    auto& used = movesA && movesB ? colours : coloursFixed;
-    const std::uint64_t taken = (movesA ? used[c.a] : 0) | (movesB ? used[c.b] : 0);
-    int colour = kColours - 1;
-    if (~taken != 0) colour = std::min(__builtin_ctzll(~taken), kColours - 1);
-    if (movesA) used[c.a] |= std::uint64_t{1} << colour;
-    if (movesB) used[c.b] |= std::uint64_t{1} << colour;
-    byColour[colour + (movesA && movesB ? 0 : kColours)].push_back(k);
+  placeOf.resize(batch.contacts.size());
+  std::array<int, kColourLists * ContactBlock::kPoints> first{};  // and by missing points
+  for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
+    const KeptContact& c = contacts[batch.contacts[i]];
+    placeOf[i] = colourOf(b, c) * ContactBlock::kPoints + ContactBlock::kPoints - c.count;
+    ++first[placeOf[i]];
   }
-  const auto widthOf = [&](int list) -> std::size_t {
-    return list % kColours == kColours - 1 ? 1 : ContactBlock::kLanes;
-  };
-  std::size_t blocks = 0, next = 0;
-  for (int list = 0; list < kLists; ++list) {
-    blocks += (byColour[list].size() + widthOf(list) - 1) / widthOf(list);
-  }
-  batch.blocks.resize(blocks);
-  for (int list = 0; list < kLists; ++list) {
-    const std::size_t width = widthOf(list);
-    for (std::size_t i = 0; i < byColour[list].size(); i += width) {
-      ContactBlock& block = batch.blocks[next++];
-      for (std::size_t l = 0; l < ContactBlock::kLanes; ++l) {
-        const bool exists = l < width && i + l < byColour[list].size();
-        block.contact[l] = exists ? byColour[list][i + l] : -1;
-      }
+  int lanes = 0;
+  batch.runs.clear();
+  for (int list = 0; list < kColourLists; ++list) {
+    for (int k = list * ContactBlock::kPoints; k < (list + 1) * ContactBlock::kPoints; ++k) {
+      const int count = first[k] * laneStride(list);
+      first[k] = lanes;
+      lanes += count;
     }
+    lanes = (lanes + ContactBlock::kLanes - 1) / ContactBlock::kLanes * ContactBlock::kLanes;
+    addRun(lanes / ContactBlock::kLanes, laneStride(list) == 1, batch.runs);
+  }
+  batch.blocks.resize(lanes / ContactBlock::kLanes);
+  for (ContactBlock& block : batch.blocks) {
+    std::fill(std::begin(block.contact), std::end(block.contact), -1);
+    block.points = 0;
+  }
+  for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
+    int& place = first[placeOf[i]];
+    ContactBlock& block = batch.blocks[place / ContactBlock::kLanes];
+    block.contact[place % ContactBlock::kLanes] = batch.contacts[i];
+    block.points = std::max(block.points, contacts[batch.contacts[i]].count);
+    place += laneStride(placeOf[i] / ContactBlock::kPoints);
   }
 }
 
@@ -85,11 +112,12 @@ void emptyLane(ContactBlock& block, int l) {
   for (auto& t : block.tangent) t.lambda[l] = 0;
 }
 
-void emptyPoint(ContactBlock::Point& p, int l) {
-  put(p.turnA, l, Vec3::Zero());
-  put(p.turnB, l, Vec3::Zero());
-  p.gap[l] = 1;
-  p.lambda[l] = p.held[l] = p.inverse[l] = 0;
+void emptyPoint(ContactBlock& block, int k, int l) {
+  ContactBlock::Point& p = block.point[k];
+  put(p.wA, l, Vec3::Zero());
+  put(p.wB, l, Vec3::Zero());
+  block.gap[k][l] = 1;
+  block.held[k][l] = p.lambda[l] = p.inverse[l] = 0;
 }
 
 // The part of what a contact carried at the start that it carries without giving way: no more than
@@ -105,126 +133,99 @@ double heldPart(const KeptContact& c) {
 
 }  // namespace
 
-// Rows of every block at the present poses, for substeps of h.
-void SmallSteps::Impl::rows(World::Impl& w, Batch& batch, double h) {
+// Rows of a block at the present poses, for substeps of h.
+void SmallSteps::Impl::fill(const World::Impl& w, double h, ContactBlock& block) const {
   const Bodies& b = w.bodies;
-  const Softness between = softness(kPeriods, kDamping);
-  const Softness against = softness(2 * kPeriods, kDamping / 2);
-  for (std::size_t s = 1; s < batch.slots.size(); ++s) {
-    const JointMass& mass = masses[batch.slots[s]];
-    LaneMass& lane = batch.masses[s];
-    lane.inverse = static_cast<float>(mass.inverse);
-    const Mat3& m = mass.inertia;
-    const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
-    for (int k = 0; k < 6; ++k) lane.inertia[k] = static_cast<float>(entries[k]);
-    LaneMotion& motion = batch.motions[s];
-    for (int k = 0; k < 3; ++k) motion.du[k] = motion.dtheta[k] = 0;
-  }
-  for (ContactBlock& block : batch.blocks) {
-    for (int l = 0; l < ContactBlock::kLanes; ++l) {
-      if (block.contact[l] < 0) {
-        emptyLane(block, l);
-        for (auto& p : block.point) emptyPoint(p, l);
+  static const Softness between = softness(kPeriods, kDamping);
+  static const Softness against = softness(2 * kPeriods, kDamping / 2);
+  for (int l = 0; l < ContactBlock::kLanes; ++l) {
+    if (block.contact[l] < 0) {
+      emptyLane(block, l);
+      for (int k = 0; k < block.points; ++k) emptyPoint(block, k, l);
+      continue;
+    }
+    const KeptContact& c = contacts[block.contact[l]];
+    const Pose &a = b.pose[c.a], &o = b.pose[c.b];
+    const Vec3 n = normalOf(c, b.pose);
+    const Mat3 rotationA = a.q.toRotationMatrix(), rotationB = o.q.toRotationMatrix();
+    const Vec3 apart = a.x - o.x;
+    const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
+    const double held = heldPart(c);
+    put(block.n, l, n);
+    block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
+    block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
+    const bool bothMove = b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0;
+    const Softness& soft = bothMove ? between : against;
+    block.scale[l] = soft.scale;
+    block.rate[l] = soft.rate;
+    block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
+    block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
+    block.twist[l] = static_cast<float>(scale * c.twist);
+    block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
+    block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
+    block.change[l] = static_cast<float>(scale * c.tangential.z());
+    for (int k = 0; k < block.points; ++k) {
+      ContactBlock::Point& p = block.point[k];
+      if (k >= c.count) {
+        emptyPoint(block, k, l);
         continue;
       }
-      const KeptContact& c = contacts[block.contact[l]];
-      const Pose &a = b.pose[c.a], &o = b.pose[c.b];
-      const Vec3 n = normalOf(c, b.pose);
-      const Mat3 rotationA = a.q.toRotationMatrix(), rotationB = o.q.toRotationMatrix();
-      const Vec3 apart = a.x - o.x;
-      const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
-      const double held = heldPart(c);
-      put(block.n, l, n);
-      block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
-      block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
-      const bool bothMove = b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0;
-      const Softness& soft = bothMove ? between : against;
-      block.scale[l] = soft.scale;
-      block.rate[l] = soft.rate;
-      block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
-      block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
-      block.twist[l] = static_cast<float>(scale * c.twist);
-      block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
-      block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
-      block.change[l] = static_cast<float>(scale * c.tangential.z());
-      for (int k = 0; k < ContactBlock::kPoints; ++k) {
-        ContactBlock::Point& p = block.point[k];
-        if (k >= c.count) {
-          emptyPoint(p, l);
-          continue;
-        }
-        const ContactPoint& shape = c.points[k];
-        const Vec3 onA = rotationA * shape.coreA - shape.radiusA * n;  // from a's centre
-        const Vec3 onB = rotationB * shape.coreB + shape.radiusB * n;  // from b's
-        const Vec3 gap = apart + onA - onB, half = 0.5 * gap;
-        put(p.turnA, l, onA - half);
-        put(p.turnB, l, onB + half);
-        p.gap[l] = static_cast<float>(gap.dot(n));
-        p.lambda[l] = static_cast<float>(scale * c.lambda[k]);
-        p.held[l] = static_cast<float>(h * h * held * c.held[k]);
-        p.inverse[l] = 1;
-      }
+      const ContactPoint& shape = c.points[k];
+      const Vec3 onA = rotationA * shape.coreA - shape.radiusA * n;  // from a's centre
+      const Vec3 onB = rotationB * shape.coreB + shape.radiusB * n;  // from b's
+      const Vec3 gap = apart + onA - onB, half = 0.5 * gap;
+      put(p.wA, l, onA - half);
+      put(p.wB, l, onB + half);
+      block.gap[k][l] = static_cast<float>(gap.dot(n));
+      p.lambda[l] = static_cast<float>(scale * c.lambda[k]);
+      block.held[k][l] = static_cast<float>(h * h * held * c.held[k]);
+      p.inverse[l] = 1;
     }
   }
-  contactKernels().prepare(batch.blocks.data(), static_cast<int>(batch.blocks.size()),
-                           batch.masses.data(), static_cast<float>(w.settings.contact->margin));
 }
 
-void SmallSteps::Impl::toLanes(Batch& batch) {
-  for (std::size_t s = 1; s < batch.slots.size(); ++s) {
-    LaneMotion& lane = batch.motions[s];
-    const Displacement& m = moved[batch.slots[s]];
-    for (int k = 0; k < 3; ++k) {
-      lane.u[k] = static_cast<float>(m.u[k]);
-      lane.theta[k] = static_cast<float>(m.theta[k]);
+void SmallSteps::Impl::rows(World::Impl& w, Batch& batch, double h) {
+  w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
+    for (int s = std::max(from, 1); s < to; ++s) {
+      batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
+      LaneMotion& motion = batch.motions[s];
+      for (int k = 0; k < 3; ++k) motion.du[k] = motion.dturn[k] = 0;
     }
-    lanesBefore[batch.slots[s]].u = {lane.u[0], lane.u[1], lane.u[2]};
-    lanesBefore[batch.slots[s]].theta = {lane.theta[0], lane.theta[1], lane.theta[2]};
-  }
-}
-
-// Only what the contacts changed: what they leave alone stays as it was, to the last bit.
-void SmallSteps::Impl::fromLanes(Batch& batch) {
-  for (std::size_t s = 1; s < batch.slots.size(); ++s) {
-    const LaneMotion& lane = batch.motions[s];
-    const BodyId i = batch.slots[s];
-    moved[i].u += Vec3(lane.u[0], lane.u[1], lane.u[2]) - lanesBefore[i].u;
-    moved[i].theta += Vec3(lane.theta[0], lane.theta[1], lane.theta[2]) - lanesBefore[i].theta;
-  }
-}
-
-// Rows are prepared once and hold for the substeps that follow, but where a body has turned so far
-// that its arms and inertia are others.
-bool SmallSteps::Impl::turnedFar(const Batch& batch) const {
-  constexpr float kFar = 0.05f;  // rad
-  return std::any_of(batch.motions.begin(), batch.motions.end(), [](const LaneMotion& m) {
-    const float squared =
-        m.dtheta[0] * m.dtheta[0] + m.dtheta[1] * m.dtheta[1] + m.dtheta[2] * m.dtheta[2];
-    return squared > kFar * kFar;
   });
+  const float reach = static_cast<float>(w.settings.contact->margin);
+  w.workers.forEachChunk(
+      static_cast<int>(batch.blocks.size()), kLeastBlocks, [&](int from, int to) {
+        for (int i = from; i < to; ++i) fill(w, h, batch.blocks[i]);
+        contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), reach);
+      });
 }
 
 // Multipliers from the lanes to the contacts that are kept.
-void SmallSteps::Impl::takeOver(Batch& batch, double h) {
+void SmallSteps::Impl::takeOver(World::Impl& w, Batch& batch, double h) {
   physics::takeOver(batch.softRows, batch.soft);
-  for (const ContactBlock& block : batch.blocks) {
-    for (int l = 0; l < ContactBlock::kLanes; ++l) {
-      if (block.contact[l] < 0) continue;
-      KeptContact& c = contacts[block.contact[l]];
-      const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
-      for (int k = 0; k < c.count; ++k) {
-        // One that touched when it was first seen has carried its load before.
-        const bool stood = c.step == 0 && block.point[k].gap[l] <= 0;
-        c.before[k] = stood ? block.point[k].lambda[l] : scale * c.lambda[k];
-        c.lambda[k] = block.point[k].lambda[l];
-      }
-      c.tangential.setZero();
-      for (const auto& t : block.tangent) {
-        c.tangential += double(t.lambda[l]) * Vec3(t.d[0][l], t.d[1][l], t.d[2][l]);
-      }
-      c.twist = block.twist[l];
-      c.step = h;
+  w.workers.forEachChunk(static_cast<int>(batch.blocks.size()), kLeastBlocks,
+                         [&](int from, int to) {
+                           for (int i = from; i < to; ++i) takeOver(batch.blocks[i], h);
+                         });
+}
+
+void SmallSteps::Impl::takeOver(const ContactBlock& block, double h) {
+  for (int l = 0; l < ContactBlock::kLanes; ++l) {
+    if (block.contact[l] < 0) continue;
+    KeptContact& c = contacts[block.contact[l]];
+    const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
+    for (int k = 0; k < c.count; ++k) {
+      // One that touched when it was first seen has carried its load before.
+      const bool stood = c.step == 0 && block.gap[k][l] <= 0;
+      c.before[k] = stood ? block.point[k].lambda[l] : scale * c.lambda[k];
+      c.lambda[k] = block.point[k].lambda[l];
     }
+    c.tangential.setZero();
+    for (const auto& t : block.tangent) {
+      c.tangential += double(t.lambda[l]) * Vec3(t.d[0][l], t.d[1][l], t.d[2][l]);
+    }
+    c.twist = block.twist[l];
+    c.step = h;
   }
 }
 

@@ -27,6 +27,11 @@ inline void store(float* p, Lanes a) { _mm256_store_ps(p, a.v); }
 inline Lanes wherePositive(Lanes test, Lanes a, Lanes b) {
   return {_mm256_blendv_ps(b.v, a.v, _mm256_cmp_ps(test.v, _mm256_setzero_ps(), _CMP_GT_OQ))};
 }
+// The lanes that are > 0, a bit each.
+inline unsigned positive(Lanes a) {
+  return static_cast<unsigned>(
+      _mm256_movemask_ps(_mm256_cmp_ps(a.v, _mm256_setzero_ps(), _CMP_GT_OQ)));
+}
 // r[i][k] <-> r[k][i]
 inline void transpose(Lanes* r) {
   const __m256 a = _mm256_unpacklo_ps(r[0].v, r[1].v), b = _mm256_unpackhi_ps(r[0].v, r[1].v);
@@ -79,6 +84,11 @@ inline __m128 wherePositive(__m128 test, __m128 a, __m128 b) {
 }
 inline Lanes wherePositive(Lanes test, Lanes a, Lanes b) {
   return {wherePositive(test.low, a.low, b.low), wherePositive(test.high, a.high, b.high)};
+}
+inline unsigned positive(Lanes a) {
+  const __m128 zero = _mm_setzero_ps();
+  const int low = _mm_movemask_ps(_mm_cmpgt_ps(a.low, zero));
+  return static_cast<unsigned>(low | _mm_movemask_ps(_mm_cmpgt_ps(a.high, zero)) << 4);
 }
 inline void transpose(__m128& a, __m128& b, __m128& c, __m128& d) { _MM_TRANSPOSE4_PS(a, b, c, d); }
 inline void transpose(Lanes* r) {

@@ -54,7 +54,6 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   coloursFixed.resize(bodies);
   masses.resize(bodies);
   moved.resize(bodies);
-  lanesBefore.resize(bodies);
   stiffness.resize(bodies, Mat3::Zero());
   radius.resize(bodies);
   inertias.resize(bodies);
@@ -82,13 +81,13 @@ void SmallSteps::Impl::advancePart(World::Impl& w, int parts, StepReport& report
     for (int i = 0; i < count; ++i) {
       predict(w, batch, h, i == 0);
       const bool turned = i > 0 && turnedFar(batch);
-      if (turned) takeOver(batch, h);
+      if (turned) takeOver(w, batch, h);
       if ((i == 0 || turned) && !batch.blocks.empty()) rows(w, batch, h);
       lookAgain(w, batch, h);
       noteApproach(w, batch, h);
       substep(w, batch, h, report);
     }
-    takeOver(batch, h);
+    takeOver(w, batch, h);
     ask(w, batch, h);
     batch.joints.finish(w.kinds, h);
     for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);

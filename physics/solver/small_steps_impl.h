@@ -1,6 +1,7 @@
 // What the default method keeps and works with. Private to physics/solver: one file per part of it.
 //   divide.cpp        articulations, islands, and the batches that they step in
 //   contact_rows.cpp  contacts into the lanes that sweep over them, and back
+//   contact_motion.cpp  bodies into these lanes, and back
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds
 //   bounce.cpp        restitution
@@ -21,6 +22,15 @@
 
 namespace physics {
 
+// Blocks that follow each other. `shared`: they are of one colour, and may be swept at a time.
+struct BlockRun {
+  int first = 0, count = 0;
+  bool shared = false;
+};
+
+// What pays for being dealt to threads.
+constexpr int kLeastBodies = 64, kLeastBlocks = 8;
+
 // Islands of equal substeps and sweeps, which step side by side.
 struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
@@ -32,7 +42,8 @@ struct SmallSteps::Batch {
   std::vector<SoftRow> softRows;
   Contacts impacts;  // with restitution only: the pairs of `contacts`, for one substep
   std::vector<ContactBlock> blocks;
-  std::vector<LaneMotion> motions;  // by slot; 0 is what does not move
+  std::vector<BlockRun> runs;               // all of them, in order
+  std::vector<LaneMotion> motions, before;  // by slot; 0 is what does not move
   std::vector<LaneMass> masses;
   std::vector<BodyId> slots;  // the body of each slot
 
@@ -41,6 +52,8 @@ struct SmallSteps::Batch {
     return !articulations.empty() || !deformables.empty() || !softRows.empty();
   }
 };
+
+LaneMass laneMassOf(const JointMass& mass);
 
 struct SmallSteps::Impl {
   std::vector<KeptContact> contacts, before;
@@ -58,7 +71,7 @@ struct SmallSteps::Impl {
   std::vector<BodyId> stepping;                      // those that step now
   std::vector<int> batchOf, slotOf;                  // by body
   std::vector<std::uint64_t> colours, coloursFixed;  // by body: taken by its contacts
-  std::vector<std::vector<int>> byColour;
+  std::vector<int> placeOf;                          // scratch, of a batch's contacts
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;
   std::vector<Mat3> stiffness;
@@ -78,6 +91,7 @@ struct SmallSteps::Impl {
   void divide(World::Impl& w);
   void assign();
   Batch& batchFor(int substeps, int sweeps);
+  int colourOf(const Bodies& b, const KeptContact& c);
   void layOut(World::Impl& w, Batch& batch);
   BodyId softMoverOf(const World::Impl& w, const SoftPair& pair) const;
   void joinSoft(const World::Impl& w, const SoftPair& pair);
@@ -87,8 +101,14 @@ struct SmallSteps::Impl {
   void gatherSoft(World::Impl& w);
   void lookAgain(World::Impl& w, Batch& batch, double h);
   void predict(World::Impl& w, Batch& batch, double h, bool first);
-  void toLanes(Batch& batch);
-  void fromLanes(Batch& batch);
+  void predictBody(World::Impl& w, BodyId i, double h, bool first);
+  void toLanes(World::Impl& w, Batch& batch);
+  void fromLanes(World::Impl& w, Batch& batch);
+  void sweepContactPositions(World::Impl& w, Batch& batch, double h);
+  void sweepContactVelocities(World::Impl& w, Batch& batch, VelocitySweep which);
+  void displaceBody(World::Impl& w, BodyId i, double h);
+  template <class F>
+  static void forEachColour(World::Impl& w, Batch& batch, F&& f);
   void displaceAll(World::Impl& w, Batch& batch, double h);
   template <class F>
   static void forEachLane(const Batch& batch, F&& f);
@@ -100,7 +120,8 @@ struct SmallSteps::Impl {
   void sweepSoft(Batch& batch);
   void substep(World::Impl& w, Batch& batch, double h, StepReport& report);
   bool turnedFar(const Batch& batch) const;
-  void takeOver(Batch& batch, double h);
+  void takeOver(World::Impl& w, Batch& batch, double h);
+  void takeOver(const ContactBlock& block, double h);
   void weighMotion(const World::Impl& w, const Batch& batch, double h);
   void weighContacts(const World::Impl& w, const Batch& batch);
   void askSoft(const World::Impl& w, const Batch& batch);
@@ -111,11 +132,26 @@ struct SmallSteps::Impl {
   void advance(World::Impl& w, StepReport& report);
   void learnLoads(World::Impl& w);
   bool fresh = true;  // nothing has stepped yet, or the state came from elsewhere
+  void fill(const World::Impl& w, double h, ContactBlock& block) const;
   void rows(World::Impl& w, Batch& batch, double h);
   std::vector<SoftPair> softPairs;
   std::vector<BodyId> free;
-  std::vector<Displacement> lanesBefore;
 };
+
+// f(blocks, count) of what may be swept at a time, in order.
+template <class F>
+void SmallSteps::Impl::forEachColour(World::Impl& w, Batch& batch, F&& f) {
+  ContactBlock* const blocks = batch.blocks.data();
+  if (w.workers.count() == 1) return f(blocks, static_cast<int>(batch.blocks.size()));
+  for (const BlockRun& run : batch.runs) {
+    if (!run.shared) {
+      f(blocks + run.first, run.count);
+      continue;
+    }
+    w.workers.forEachChunk(run.count, kLeastBlocks,
+                           [&](int from, int to) { f(blocks + run.first + from, to - from); });
+  }
+}
 
 // f(block, lane, place of the contact in batch.contacts) of every lane that has a contact.
 template <class F>

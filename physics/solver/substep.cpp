@@ -24,48 +24,55 @@ Mat3 worldInertia(const Mat3& r, const Vec3& principal) {
 
 // u = h v + h^2 M^-1 f, with the inertia at X^t and, where joints pull, their geometric stiffness.
 void SmallSteps::Impl::predict(World::Impl& w, Batch& batch, double h, bool first) {
-  Bodies& b = w.bodies;
   for (const int k : batch.articulations) {
     for (const BodyId i : articulations[k].bodies()) stiffness[i].setZero();
   }
   batch.joints.stiffen(stiffness);
-  for (const BodyId i : batch.bodies) {
-    Displacement& m = moved[i];
-    Velocity& v = b.velocity[i];
-    b.start[i] = b.pose[i];
-    if (b.motion[i] != Motion::kDynamic) {
-      m = {h * v.v, h * v.w};
-      masses[i] = {};
-      continue;
-    }
-    if (w.settings.gravity) v.v += h * *w.settings.gravity;
-    v.v += h * b.inverse[i].m * w.loads[i].force;
-    m.u = h * v.v;
-    masses[i].inverse = b.inverse[i].m;
-    if (b.inverseInertia[i].isZero(0)) {
-      m.theta = h * v.w;
-      masses[i].inertia.setZero();
-      continue;
-    }
-    const bool isRound = isIsotropic(b.inertia[i]);
-    const Mat3 r = isRound ? Mat3::Identity() : b.pose[i].q.toRotationMatrix();
-    // After the first substep it stands there: of the pose that the last one ended with.
-    const Mat3 inverse = !first ? masses[i].inertia : worldInertia(r, b.inverseInertia[i]);
-    v.w += h * (inverse * w.loads[i].torque);
-    masses[i].inertia = inverse;
-    Vec3 omega = v.w;
-    if (isRound && (articulationOf[i] < 0 || stiffness[i].isZero(0))) {
-      m.theta = h * omega;
-      continue;
-    }
-    const Mat3 inertia = worldInertia(r, b.inertia[i]);
-    if (!isRound) omega = meanSpin(inertia, inverse, omega, h);
+  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
+                         [&](int from, int to) {
+                           for (int k = from; k < to; ++k) {
+                             predictBody(w, batch.bodies[k], h, first);
+                           }
+                         });
+}
+
+void SmallSteps::Impl::predictBody(World::Impl& w, BodyId i, double h, bool first) {
+  Bodies& b = w.bodies;
+  Displacement& m = moved[i];
+  Velocity& v = b.velocity[i];
+  b.start[i] = b.pose[i];
+  if (b.motion[i] != Motion::kDynamic) {
+    m = {h * v.v, h * v.w};
+    masses[i] = {};
+    return;
+  }
+  if (w.settings.gravity) v.v += h * *w.settings.gravity;
+  v.v += h * b.inverse[i].m * w.loads[i].force;
+  m.u = h * v.v;
+  masses[i].inverse = b.inverse[i].m;
+  if (b.inverseInertia[i].isZero(0)) {
+    m.theta = h * v.w;
+    masses[i].inertia.setZero();
+    return;
+  }
+  const bool isRound = isIsotropic(b.inertia[i]);
+  const Mat3 r = isRound ? Mat3::Identity() : b.pose[i].q.toRotationMatrix();
+  // After the first substep it stands there: of the pose that the last one ended with.
+  const Mat3 inverse = !first ? masses[i].inertia : worldInertia(r, b.inverseInertia[i]);
+  v.w += h * (inverse * w.loads[i].torque);
+  masses[i].inertia = inverse;
+  Vec3 omega = v.w;
+  if (isRound && (articulationOf[i] < 0 || stiffness[i].isZero(0))) {
     m.theta = h * omega;
-    inertias[i] = inertia;
-    spins[i] = m.theta;
-    if (articulationOf[i] >= 0 && !stiffness[i].isZero(0)) {
-      masses[i].inertia = (inertia + stiffness[i]).inverse();
-    }
+    return;
+  }
+  const Mat3 inertia = worldInertia(r, b.inertia[i]);
+  if (!isRound) omega = meanSpin(inertia, inverse, omega, h);
+  m.theta = h * omega;
+  inertias[i] = inertia;
+  spins[i] = m.theta;
+  if (articulationOf[i] >= 0 && !stiffness[i].isZero(0)) {
+    masses[i].inertia = (inertia + stiffness[i]).inverse();
   }
 }
 
@@ -89,32 +96,38 @@ void SmallSteps::Impl::lookAgain(World::Impl& w, Batch& batch, double h) {
   prepareSoftRows(batch.soft, b.pose, masses, batch.softRows);
 }
 
-// X <- X + u. Angular momentum is kept while the inertia turns.
+// X <- X + u.
 void SmallSteps::Impl::displaceAll(World::Impl& w, Batch& batch, double h) {
-  Bodies& b = w.bodies;
-  for (const BodyId i : batch.bodies) {
-    Displacement& m = moved[i];
-    displace(b.pose[i], m.u, m.theta);
-    b.pose[i].q.normalize();
-    if (b.motion[i] != Motion::kDynamic || b.inverseInertia[i].isZero(0)) continue;
-    if (isIsotropic(b.inertia[i])) {
-      if (articulationOf[i] >= 0) {
-        masses[i].inertia = b.inverseInertia[i].x() * Mat3::Identity();
-      }
-      continue;
-    }
-    const Vec3 given = m.theta - spins[i];
-    const Vec3 momentum = inertias[i] * (h * b.velocity[i].w + given);
-    masses[i].inertia = worldInertia(b.pose[i].q.toRotationMatrix(), b.inverseInertia[i]);
-    m.theta = masses[i].inertia * momentum;
-  }
-  for (std::size_t s = 1; s < batch.slots.size(); ++s) {
+  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
+                         [&](int from, int to) {
+                           for (int k = from; k < to; ++k) displaceBody(w, batch.bodies[k], h);
+                         });
+  for (std::size_t s = 1; s < batch.motions.size(); ++s) {
     LaneMotion& lane = batch.motions[s];
     for (int k = 0; k < 3; ++k) {
       lane.du[k] += lane.u[k];
-      lane.dtheta[k] += lane.theta[k];
+      lane.dturn[k] += lane.turn[k];
     }
   }
+}
+
+// Angular momentum is kept while the inertia turns.
+void SmallSteps::Impl::displaceBody(World::Impl& w, BodyId i, double h) {
+  Bodies& b = w.bodies;
+  Displacement& m = moved[i];
+  displace(b.pose[i], m.u, m.theta);
+  b.pose[i].q.normalize();
+  if (b.motion[i] != Motion::kDynamic || b.inverseInertia[i].isZero(0)) return;
+  if (isIsotropic(b.inertia[i])) {
+    if (articulationOf[i] >= 0) {
+      masses[i].inertia = b.inverseInertia[i].x() * Mat3::Identity();
+    }
+    return;
+  }
+  const Vec3 given = m.theta - spins[i];
+  const Vec3 momentum = inertias[i] * (h * b.velocity[i].w + given);
+  masses[i].inertia = worldInertia(b.pose[i].q.toRotationMatrix(), b.inverseInertia[i]);
+  m.theta = masses[i].inertia * momentum;
 }
 
 // Positions of deformables and their contacts.
@@ -138,6 +151,23 @@ void SmallSteps::Impl::sweepDeformables(World::Impl& w, Batch& batch, double h) 
   }
 }
 
+// Contacts alone, in the lanes: colour by colour.
+void SmallSteps::Impl::sweepContactPositions(World::Impl& w, Batch& batch, double h) {
+  const float push = static_cast<float>(w.settings.contact->maxSeparationSpeed * h);
+  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
+    contactKernels().warmStart(blocks, count, batch.motions.data());
+  });
+  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
+    contactKernels().sweepPositions(blocks, count, batch.motions.data(), push);
+  });
+}
+
+void SmallSteps::Impl::sweepContactVelocities(World::Impl& w, Batch& batch, VelocitySweep which) {
+  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
+    contactKernels().sweepVelocities(blocks, count, batch.motions.data(), which);
+  });
+}
+
 // Joints, contacts, joints: the last ones leave contacts open by little, and joints not at all.
 void SmallSteps::Impl::solvePositions(World::Impl& w, Batch& batch, double h) {
   const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
@@ -147,12 +177,9 @@ void SmallSteps::Impl::solvePositions(World::Impl& w, Batch& batch, double h) {
   batch.joints.solvePositions(stage, true);
   if (count > 0) {
     turnTo("contact");
-    toLanes(batch);
-    contactKernels().warmStart(batch.blocks.data(), count, batch.motions.data());
-    const double push = w.settings.contact->maxSeparationSpeed * h;
-    contactKernels().sweepPositions(batch.blocks.data(), count, batch.motions.data(),
-                                    static_cast<float>(push));
-    fromLanes(batch);
+    toLanes(w, batch);
+    sweepContactPositions(w, batch, h);
+    fromLanes(w, batch);
   }
   sweepDeformables(w, batch, h);
   turnTo("direct");
@@ -161,7 +188,7 @@ void SmallSteps::Impl::solvePositions(World::Impl& w, Batch& batch, double h) {
   } else {
     batch.joints.closePositions(stage);
   }
-  if (count > 0 && batch.isMixed()) toLanes(batch);
+  if (count > 0 && batch.isMixed()) toLanes(w, batch);
 }
 
 // Of what is swept one by one.
@@ -181,26 +208,23 @@ void SmallSteps::Impl::solveVelocities(World::Impl& w, Batch& batch, double h) {
     deformables[k].prepareVelocities(w.kinds, {w.bodies.pose, w.bodies.start, h}, masses);
   }
   measure(batch.softRows, moved);
-  if (count > 0) {
-    toLanes(batch);
-    contactKernels().measure(batch.blocks.data(), count, batch.motions.data());
-  }
+  if (count > 0) toLanes(w, batch);
   const bool isMixed = batch.isMixed();
   for (int s = 0; s < batch.sweeps; ++s) {
     if (count > 0) {
       turnTo("contact");
-      contactKernels().sweepVelocities(batch.blocks.data(), count, batch.motions.data());
+      sweepContactVelocities(w, batch, {.first = s == 0, .last = s + 1 == batch.sweeps});
       if (!isMixed) continue;
-      fromLanes(batch);
+      fromLanes(w, batch);
     } else if (batch.deformables.empty() && batch.softRows.empty()) {
       break;  // joints alone are solved already
     }
     turnTo("direct");
     sweepSoft(batch);
     batch.joints.solveVelocities(stage);
-    if (count > 0 && s + 1 < batch.sweeps) toLanes(batch);
+    if (count > 0 && s + 1 < batch.sweeps) toLanes(w, batch);
   }
-  if (count > 0 && !isMixed) fromLanes(batch);
+  if (count > 0 && !isMixed) fromLanes(w, batch);
 }
 
 void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepReport& report) {
@@ -210,11 +234,15 @@ void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepRepor
   displaceAll(w, batch, h);
   solveVelocities(w, batch, h);
   turnTo("motion");
-  for (const BodyId i : batch.bodies) {
-    if (b.motion[i] != Motion::kDynamic) continue;
-    b.velocity[i].v = moved[i].u / h;
-    b.velocity[i].w = moved[i].theta / h;
-  }
+  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
+                         [&](int from, int to) {
+                           for (int k = from; k < to; ++k) {
+                             const BodyId i = batch.bodies[k];
+                             if (b.motion[i] != Motion::kDynamic) continue;
+                             b.velocity[i].v = moved[i].u / h;
+                             b.velocity[i].w = moved[i].theta / h;
+                           }
+                         });
   bounce(w, batch, h);
   turnTo("");
   const auto touching = static_cast<std::int64_t>(batch.contacts.size() + batch.softRows.size());

@@ -192,9 +192,13 @@ TEST(SmallSteps, AtAHitMomentumIsKept) {
 }
 
 // The same bytes from either set of registers.
-TEST(ContactKernels, GiveTheSameBytesInHalvesAndInOne) {
+class ContactKernelsOf : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Points, ContactKernelsOf, ::testing::Values(1, 2, 3, 4));
+
+TEST_P(ContactKernelsOf, GiveTheSameBytesInHalvesAndInOne) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2 here";
   ContactBlock start{};
+  start.points = GetParam();
   LaneMass masses[17]{};
   LaneMotion motions[17]{};
   unsigned seed = 1;
@@ -203,10 +207,10 @@ TEST(ContactKernels, GiveTheSameBytesInHalvesAndInOne) {
   };
   for (int s = 1; s < 17; ++s) {
     masses[s].inverse = 1 + next();
+    for (const int k : {0, 3, 5}) masses[s].root[k] = 1.5f + next();
+    for (const int k : {1, 2, 4}) masses[s].root[k] = 0.2f * next();
     for (int k = 0; k < 3; ++k)
-      masses[s].inertia[k] = 2 + next(), masses[s].inertia[k + 3] = 0.2f * next();
-    for (int k = 0; k < 3; ++k)
-      motions[s].u[k] = 0.01f * next(), motions[s].theta[k] = 0.01f * next();
+      motions[s].u[k] = 0.01f * next(), motions[s].turn[k] = 0.01f * next();
   }
   for (int l = 0; l < 8; ++l) {
     start.bodyA[l] = 1 + 2 * l;
@@ -216,17 +220,19 @@ TEST(ContactKernels, GiveTheSameBytesInHalvesAndInOne) {
     start.scale[l] = 0.9f, start.rate[l] = 0.2f;
     start.staticFriction[l] = 0.6f, start.dynamicFriction[l] = 0.5f;
     for (auto& p : start.point) {
-      for (int k = 0; k < 3; ++k) p.turnA[k][l] = next(), p.turnB[k][l] = next();
-      p.gap[l] = 0.01f * next(), p.lambda[l] = 0.01f * (0.5f + next()), p.inverse[l] = 1;
+      for (int k = 0; k < 3; ++k) p.wA[k][l] = next(), p.wB[k][l] = next();
+      p.lambda[l] = 0.01f * (0.5f + next()), p.inverse[l] = 1;
     }
+    for (auto& gap : start.gap) gap[l] = 0.01f * next();
   }
   const auto work = [&](const ContactKernels& kernels, ContactBlock& block,
                         LaneMotion(&moved)[17]) {
     kernels.prepare(&block, 1, masses, 0.02f);
     kernels.warmStart(&block, 1, moved);
     kernels.sweepPositions(&block, 1, moved, 0.01f);
-    kernels.measure(&block, 1, moved);
-    for (int k = 0; k < 3; ++k) kernels.sweepVelocities(&block, 1, moved);
+    for (int k = 0; k < 3; ++k) {
+      kernels.sweepVelocities(&block, 1, moved, {.first = k == 0, .last = k == 2});
+    }
   };
   ContactBlock narrow = start, wide = start;
   LaneMotion byHalves[17], byOne[17];
