@@ -48,36 +48,46 @@ Vec3 turnOf(const LaneMass& mass, const Vec3& theta) {
 
 }  // namespace
 
-void SmallSteps::Impl::toLanes(World::Impl& w, Batch& batch) {
-  batch.before.resize(batch.slots.size());
-  w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
-    for (int s = std::max(from, 1); s < to; ++s) {
-      LaneMotion& lane = batch.motions[s];
-      const Displacement& m = moved[batch.slots[s]];
-      const Vec3 turn = turnOf(batch.masses[s], m.theta);
-      for (int k = 0; k < 3; ++k) {
-        lane.u[k] = static_cast<float>(m.u[k]);
-        lane.turn[k] = static_cast<float>(turn[k]);
-      }
-      batch.before[s] = lane;
+void SmallSteps::Impl::toLane(Batch& batch, int slot) {
+  LaneMotion& lane = batch.motions[slot];
+  const Displacement& m = moved[batch.slots[slot]];
+  const Vec3 turn = turnOf(batch.masses[slot], m.theta);
+  for (int k = 0; k < 3; ++k) {
+    lane.u[k] = static_cast<float>(m.u[k]);
+    lane.turn[k] = static_cast<float>(turn[k]);
+  }
+  std::copy(lane.u, lane.u + 3, batch.before[slot].u);
+  std::copy(lane.turn, lane.turn + 3, batch.before[slot].turn);
+}
+
+// Only what the contacts changed since: what they leave alone stays as it was, to the last bit.
+void SmallSteps::Impl::fromLane(Batch& batch, int slot) {
+  const LaneMotion& lane = batch.motions[slot];
+  LaneStart& before = batch.before[slot];
+  const BodyId i = batch.slots[slot];
+  if (inertiaOf[i] == Inertia::kGiven) return;
+  const auto change = [](const float(&now)[3], float(&then)[3]) {
+    Vec3 by;
+    for (int k = 0; k < 3; ++k) {
+      by[k] = double(now[k]) - then[k];
+      then[k] = now[k];
     }
+    return by;
+  };
+  moved[i].u += change(lane.u, before.u);
+  if (inertiaOf[i] == Inertia::kNone) return;
+  moved[i].theta += rotationOf(batch.masses[slot], change(lane.turn, before.turn));
+}
+
+void SmallSteps::Impl::toLanes(World::Impl& w, Batch& batch) {
+  w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
+    for (int s = std::max(from, 1); s < to; ++s) toLane(batch, s);
   });
 }
 
-// Only what the contacts changed: what they leave alone stays as it was, to the last bit.
 void SmallSteps::Impl::fromLanes(World::Impl& w, Batch& batch) {
-  const auto change = [](const float(&now)[3], const float(&then)[3]) {
-    return Vec3(double(now[0]) - then[0], double(now[1]) - then[1], double(now[2]) - then[2]);
-  };
   w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
-    for (int s = std::max(from, 1); s < to; ++s) {
-      const LaneMotion &lane = batch.motions[s], &before = batch.before[s];
-      if (!(batch.masses[s].inverse > 0)) continue;
-      Displacement& m = moved[batch.slots[s]];
-      m.u += change(lane.u, before.u);
-      if (masses[batch.slots[s]].inertia.isZero(0)) continue;
-      m.theta += rotationOf(batch.masses[s], change(lane.turn, before.turn));
-    }
+    for (int s = std::max(from, 1); s < to; ++s) fromLane(batch, s);
   });
 }
 

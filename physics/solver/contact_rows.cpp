@@ -65,6 +65,7 @@ void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
   }
   batch.motions.assign(batch.slots.size(), LaneMotion{});
   batch.masses.assign(batch.slots.size(), LaneMass{});
+  batch.before.resize(batch.slots.size());
   placeOf.resize(batch.contacts.size());
   std::array<int, kColourLists * ContactBlock::kPoints> first{};  // and by missing points
   for (std::size_t i = 0; i < batch.contacts.size(); ++i) {

@@ -52,6 +52,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   steps.resize(bodies);
   colours.resize(bodies);
   coloursFixed.resize(bodies);
+  inertiaOf.resize(bodies);
   masses.resize(bodies);
   moved.resize(bodies);
   stiffness.resize(bodies, Mat3::Zero());

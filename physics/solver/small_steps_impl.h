@@ -28,6 +28,14 @@ struct BlockRun {
   bool shared = false;
 };
 
+// What turns a body. Given: nothing, nor moves it. None: it is a point. Round: in every direction
+// the same.
+enum class Inertia : char { kGiven, kNone, kRound, kOther };
+
+struct LaneStart {
+  float u[3] = {}, turn[3] = {};
+};
+
 // What pays for being dealt to threads.
 constexpr int kLeastBodies = 64, kLeastBlocks = 8;
 
@@ -42,8 +50,9 @@ struct SmallSteps::Batch {
   std::vector<SoftRow> softRows;
   Contacts impacts;  // with restitution only: the pairs of `contacts`, for one substep
   std::vector<ContactBlock> blocks;
-  std::vector<BlockRun> runs;               // all of them, in order
-  std::vector<LaneMotion> motions, before;  // by slot; 0 is what does not move
+  std::vector<BlockRun> runs;       // all of them, in order
+  std::vector<LaneMotion> motions;  // by slot; 0 is what does not move
+  std::vector<LaneStart> before;    // of the motions, when the bodies last knew of them
   std::vector<LaneMass> masses;
   std::vector<BodyId> slots;  // the body of each slot
 
@@ -72,6 +81,7 @@ struct SmallSteps::Impl {
   std::vector<int> batchOf, slotOf;                  // by body
   std::vector<std::uint64_t> colours, coloursFixed;  // by body: taken by its contacts
   std::vector<int> placeOf;                          // scratch, of a batch's contacts
+  std::vector<Inertia> inertiaOf;                    // by body, of this step
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;
   std::vector<Mat3> stiffness;
@@ -102,6 +112,8 @@ struct SmallSteps::Impl {
   void lookAgain(World::Impl& w, Batch& batch, double h);
   void predict(World::Impl& w, Batch& batch, double h, bool first);
   void predictBody(World::Impl& w, BodyId i, double h, bool first);
+  void toLane(Batch& batch, int slot);
+  void fromLane(Batch& batch, int slot);
   void toLanes(World::Impl& w, Batch& batch);
   void fromLanes(World::Impl& w, Batch& batch);
   void sweepContactPositions(World::Impl& w, Batch& batch, double h);

@@ -20,6 +20,12 @@ Mat3 worldInertia(const Mat3& r, const Vec3& principal) {
   return scaled * r.transpose();
 }
 
+Inertia kindOfInertia(const Bodies& b, BodyId i) {
+  if (b.motion[i] != Motion::kDynamic) return Inertia::kGiven;
+  if (b.inverseInertia[i].isZero(0)) return Inertia::kNone;
+  return isIsotropic(b.inertia[i]) ? Inertia::kRound : Inertia::kOther;
+}
+
 }  // namespace
 
 // u = h v + h^2 M^-1 f, with the inertia at X^t and, where joints pull, their geometric stiffness.
@@ -41,21 +47,27 @@ void SmallSteps::Impl::predictBody(World::Impl& w, BodyId i, double h, bool firs
   Displacement& m = moved[i];
   Velocity& v = b.velocity[i];
   b.start[i] = b.pose[i];
-  if (b.motion[i] != Motion::kDynamic) {
+  if (first) inertiaOf[i] = kindOfInertia(b, i);
+  if (inertiaOf[i] == Inertia::kGiven) {
     m = {h * v.v, h * v.w};
     masses[i] = {};
     return;
   }
   if (w.settings.gravity) v.v += h * *w.settings.gravity;
-  v.v += h * b.inverse[i].m * w.loads[i].force;
+  const bool isLoaded = !w.loaded.empty();
+  if (isLoaded) v.v += h * b.inverse[i].m * w.loads[i].force;
   m.u = h * v.v;
-  masses[i].inverse = b.inverse[i].m;
-  if (b.inverseInertia[i].isZero(0)) {
+  if (first) masses[i].inverse = b.inverse[i].m;
+  if (inertiaOf[i] == Inertia::kNone) {
     m.theta = h * v.w;
     masses[i].inertia.setZero();
     return;
   }
-  const bool isRound = isIsotropic(b.inertia[i]);
+  const bool isRound = inertiaOf[i] == Inertia::kRound;
+  if (isRound && !first && !isLoaded && articulationOf[i] < 0) {
+    m.theta = h * v.w;  // masses[i] holds what it held
+    return;
+  }
   const Mat3 r = isRound ? Mat3::Identity() : b.pose[i].q.toRotationMatrix();
   // After the first substep it stands there: of the pose that the last one ended with.
   const Mat3 inverse = !first ? masses[i].inertia : worldInertia(r, b.inverseInertia[i]);
@@ -96,19 +108,24 @@ void SmallSteps::Impl::lookAgain(World::Impl& w, Batch& batch, double h) {
   prepareSoftRows(batch.soft, b.pose, masses, batch.softRows);
 }
 
-// X <- X + u.
+// X <- X + u. Contacts alone leave the lanes as they are, but where a turn of inertia changes them.
 void SmallSteps::Impl::displaceAll(World::Impl& w, Batch& batch, double h) {
+  const bool inLanes = !batch.blocks.empty(), alone = inLanes && !batch.isMixed();
   w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
                          [&](int from, int to) {
-                           for (int k = from; k < to; ++k) displaceBody(w, batch.bodies[k], h);
+                           for (int k = from; k < to; ++k) {
+                             const BodyId i = batch.bodies[k];
+                             if (alone) fromLane(batch, k + 1);
+                             displaceBody(w, i, h);
+                             if (!inLanes) continue;
+                             LaneMotion& lane = batch.motions[k + 1];
+                             for (int c = 0; c < 3; ++c) {
+                               lane.du[c] += lane.u[c];
+                               lane.dturn[c] += lane.turn[c];
+                             }
+                             if (alone && inertiaOf[i] == Inertia::kOther) toLane(batch, k + 1);
+                           }
                          });
-  for (std::size_t s = 1; s < batch.motions.size(); ++s) {
-    LaneMotion& lane = batch.motions[s];
-    for (int k = 0; k < 3; ++k) {
-      lane.du[k] += lane.u[k];
-      lane.dturn[k] += lane.turn[k];
-    }
-  }
 }
 
 // Angular momentum is kept while the inertia turns.
@@ -117,8 +134,8 @@ void SmallSteps::Impl::displaceBody(World::Impl& w, BodyId i, double h) {
   Displacement& m = moved[i];
   displace(b.pose[i], m.u, m.theta);
   b.pose[i].q.normalize();
-  if (b.motion[i] != Motion::kDynamic || b.inverseInertia[i].isZero(0)) return;
-  if (isIsotropic(b.inertia[i])) {
+  if (inertiaOf[i] == Inertia::kGiven || inertiaOf[i] == Inertia::kNone) return;
+  if (inertiaOf[i] == Inertia::kRound) {
     if (articulationOf[i] >= 0) {
       masses[i].inertia = b.inverseInertia[i].x() * Mat3::Identity();
     }
@@ -179,7 +196,7 @@ void SmallSteps::Impl::solvePositions(World::Impl& w, Batch& batch, double h) {
     turnTo("contact");
     toLanes(w, batch);
     sweepContactPositions(w, batch, h);
-    fromLanes(w, batch);
+    if (batch.isMixed()) fromLanes(w, batch);
   }
   sweepDeformables(w, batch, h);
   turnTo("direct");
@@ -208,8 +225,8 @@ void SmallSteps::Impl::solveVelocities(World::Impl& w, Batch& batch, double h) {
     deformables[k].prepareVelocities(w.kinds, {w.bodies.pose, w.bodies.start, h}, masses);
   }
   measure(batch.softRows, moved);
-  if (count > 0) toLanes(w, batch);
   const bool isMixed = batch.isMixed();
+  if (count > 0 && isMixed) toLanes(w, batch);
   for (int s = 0; s < batch.sweeps; ++s) {
     if (count > 0) {
       turnTo("contact");
@@ -224,7 +241,6 @@ void SmallSteps::Impl::solveVelocities(World::Impl& w, Batch& batch, double h) {
     batch.joints.solveVelocities(stage);
     if (count > 0 && s + 1 < batch.sweeps) toLanes(w, batch);
   }
-  if (count > 0 && !isMixed) fromLanes(w, batch);
 }
 
 void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepReport& report) {
@@ -234,11 +250,13 @@ void SmallSteps::Impl::substep(World::Impl& w, Batch& batch, double h, StepRepor
   displaceAll(w, batch, h);
   solveVelocities(w, batch, h);
   turnTo("motion");
+  const bool alone = !batch.blocks.empty() && !batch.isMixed();
   w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
                          [&](int from, int to) {
                            for (int k = from; k < to; ++k) {
                              const BodyId i = batch.bodies[k];
-                             if (b.motion[i] != Motion::kDynamic) continue;
+                             if (inertiaOf[i] == Inertia::kGiven) continue;
+                             if (alone) fromLane(batch, k + 1);
                              b.velocity[i].v = moved[i].u / h;
                              b.velocity[i].w = moved[i].theta / h;
                            }
