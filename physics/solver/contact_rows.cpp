@@ -50,13 +50,10 @@ int SmallSteps::Impl::colourOf(const Bodies& b, const KeptContact& c) {
   return colour + (movesA && movesB ? 0 : kColours);
 }
 
-// Contacts of one colour share no body that moves. First those of two bodies that move, then those
-// with what does not, so that a sweep ends with nothing driven into a wall. A body with more
-// contacts than there are colours has the others one by one. Of a colour those with most points
-// come first: a block takes as long as its largest manifold.
-void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
-  const Bodies& b = w.bodies;
+// A slot to every body, where it meets anything.
+void SmallSteps::Impl::takeSlots(Batch& batch) {
   batch.slots.assign(1, kWorldBody);
+  batch.runs.clear();
   if (batch.contacts.empty()) return batch.blocks.clear();
   for (const BodyId i : batch.bodies) {
     slotOf[i] = static_cast<int>(batch.slots.size());
@@ -66,15 +63,24 @@ void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
   batch.motions.assign(batch.slots.size(), LaneMotion{});
   batch.masses.assign(batch.slots.size(), LaneMass{});
   batch.before.resize(batch.slots.size());
+}
+
+// Contacts of one colour share no body that moves. First those of two bodies that move, then those
+// with what does not, so that a sweep ends with nothing driven into a wall. A body with more
+// contacts than there are colours has the others one by one. Of a colour those with most points
+// come first: a block takes as long as its largest manifold.
+void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
+  takeSlots(batch);
+  if (batch.contacts.empty()) return;
   placeOf.resize(batch.contacts.size());
   std::array<int, kColourLists * ContactBlock::kPoints> first{};  // and by missing points
   for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
     const KeptContact& c = contacts[batch.contacts[i]];
-    placeOf[i] = colourOf(b, c) * ContactBlock::kPoints + ContactBlock::kPoints - c.count;
+    placeOf[i] = colourOf(w.bodies, c) * ContactBlock::kPoints + ContactBlock::kPoints -
+                 std::max(c.count, 1);
     ++first[placeOf[i]];
   }
   int lanes = 0;
-  batch.runs.clear();
   for (int list = 0; list < kColourLists; ++list) {
     for (int k = list * ContactBlock::kPoints; k < (list + 1) * ContactBlock::kPoints; ++k) {
       const int count = first[k] * laneStride(list);
@@ -87,7 +93,7 @@ void SmallSteps::Impl::layOut(World::Impl& w, Batch& batch) {
   batch.blocks.resize(lanes / ContactBlock::kLanes);
   for (ContactBlock& block : batch.blocks) {
     std::fill(std::begin(block.contact), std::end(block.contact), -1);
-    block.points = 0;
+    block.points = 1;
   }
   for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
     int& place = first[placeOf[i]];
@@ -132,6 +138,32 @@ double heldPart(const KeptContact& c) {
   return held > 0 ? kHeld * std::min(1.0, carried / (c.step * c.step * held)) : 0;
 }
 
+// Normal, arms, gaps and loads of lane l: kept multipliers are scaled, and those of the start by
+// `held`.
+void fillPoints(const KeptContact& c, std::span<const Pose> pose, double scale, double held,
+                ContactBlock& block, int l) {
+  const Vec3 n = normalOf(c, pose), apart = pose[c.a].x - pose[c.b].x;
+  const Mat3 rotationA = pose[c.a].q.toRotationMatrix(), rotationB = pose[c.b].q.toRotationMatrix();
+  put(block.n, l, n);
+  for (int k = 0; k < block.points; ++k) {
+    ContactBlock::Point& p = block.point[k];
+    if (k >= c.count) {
+      emptyPoint(block, k, l);
+      continue;
+    }
+    const ContactPoint& shape = c.points[k];
+    const Vec3 onA = rotationA * shape.coreA - shape.radiusA * n;  // from a's centre
+    const Vec3 onB = rotationB * shape.coreB + shape.radiusB * n;  // from b's
+    const Vec3 gap = apart + onA - onB, half = 0.5 * gap;
+    put(p.wA, l, onA - half);
+    put(p.wB, l, onB + half);
+    block.gap[k][l] = static_cast<float>(gap.dot(n));
+    p.lambda[l] = static_cast<float>(scale * c.lambda[k]);
+    block.held[k][l] = static_cast<float>(held * c.held[k]);
+    p.inverse[l] = 1;
+  }
+}
+
 }  // namespace
 
 // Rows of a block at the present poses, for substeps of h.
@@ -146,13 +178,7 @@ void SmallSteps::Impl::fill(const World::Impl& w, double h, ContactBlock& block)
       continue;
     }
     const KeptContact& c = contacts[block.contact[l]];
-    const Pose &a = b.pose[c.a], &o = b.pose[c.b];
-    const Vec3 n = normalOf(c, b.pose);
-    const Mat3 rotationA = a.q.toRotationMatrix(), rotationB = o.q.toRotationMatrix();
-    const Vec3 apart = a.x - o.x;
     const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
-    const double held = heldPart(c);
-    put(block.n, l, n);
     block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
     block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
     const bool bothMove = b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0;
@@ -165,23 +191,7 @@ void SmallSteps::Impl::fill(const World::Impl& w, double h, ContactBlock& block)
     block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
     block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
     block.change[l] = static_cast<float>(scale * c.tangential.z());
-    for (int k = 0; k < block.points; ++k) {
-      ContactBlock::Point& p = block.point[k];
-      if (k >= c.count) {
-        emptyPoint(block, k, l);
-        continue;
-      }
-      const ContactPoint& shape = c.points[k];
-      const Vec3 onA = rotationA * shape.coreA - shape.radiusA * n;  // from a's centre
-      const Vec3 onB = rotationB * shape.coreB + shape.radiusB * n;  // from b's
-      const Vec3 gap = apart + onA - onB, half = 0.5 * gap;
-      put(p.wA, l, onA - half);
-      put(p.wB, l, onB + half);
-      block.gap[k][l] = static_cast<float>(gap.dot(n));
-      p.lambda[l] = static_cast<float>(scale * c.lambda[k]);
-      block.held[k][l] = static_cast<float>(h * h * held * c.held[k]);
-      p.inverse[l] = 1;
-    }
+    fillPoints(c, b.pose, scale, h * h * heldPart(c), block, l);
   }
 }
 

@@ -102,6 +102,7 @@ struct SmallSteps::Impl {
   void assign();
   Batch& batchFor(int substeps, int sweeps);
   int colourOf(const Bodies& b, const KeptContact& c);
+  void takeSlots(Batch& batch);
   void layOut(World::Impl& w, Batch& batch);
   BodyId softMoverOf(const World::Impl& w, const SoftPair& pair) const;
   void joinSoft(const World::Impl& w, const SoftPair& pair);
@@ -112,6 +113,7 @@ struct SmallSteps::Impl {
   void lookAgain(World::Impl& w, Batch& batch, double h);
   void predict(World::Impl& w, Batch& batch, double h, bool first);
   void predictBody(World::Impl& w, BodyId i, double h, bool first);
+  void predictTurn(World::Impl& w, BodyId i, double h, bool first);
   void toLane(Batch& batch, int slot);
   void fromLane(Batch& batch, int slot);
   void toLanes(World::Impl& w, Batch& batch);

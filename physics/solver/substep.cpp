@@ -63,11 +63,18 @@ void SmallSteps::Impl::predictBody(World::Impl& w, BodyId i, double h, bool firs
     masses[i].inertia.setZero();
     return;
   }
-  const bool isRound = inertiaOf[i] == Inertia::kRound;
-  if (isRound && !first && !isLoaded && articulationOf[i] < 0) {
+  if (inertiaOf[i] == Inertia::kRound && !first && !isLoaded && articulationOf[i] < 0) {
     m.theta = h * v.w;  // masses[i] holds what it held
     return;
   }
+  predictTurn(w, i, h, first);
+}
+
+void SmallSteps::Impl::predictTurn(World::Impl& w, BodyId i, double h, bool first) {
+  Bodies& b = w.bodies;
+  Displacement& m = moved[i];
+  Velocity& v = b.velocity[i];
+  const bool isRound = inertiaOf[i] == Inertia::kRound;
   const Mat3 r = isRound ? Mat3::Identity() : b.pose[i].q.toRotationMatrix();
   // After the first substep it stands there: of the pose that the last one ended with.
   const Mat3 inverse = !first ? masses[i].inertia : worldInertia(r, b.inverseInertia[i]);
