@@ -1,87 +1,111 @@
-// The only file that includes FCL: its dynamic AABB tree, fed with boxes that are never rotated.
+// The only file that includes FCL: its dynamic tree of bounds.
 #include "physics/collision/broad_phase.h"
 
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/geometry/shape/box.h>
-#include <fcl/narrowphase/collision_object.h>
+#include <fcl/broadphase/detail/hierarchy_tree.h>
+#include <fcl/math/bv/AABB.h>
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 
 namespace physics::collision {
-
-struct BroadPhase::Impl {
-  struct Item {
-    std::shared_ptr<fcl::Boxd> box;
-    std::unique_ptr<fcl::CollisionObjectd> object;
-    bool small = false;
-  };
-  std::vector<Item> items;
-  fcl::DynamicAABBTreeCollisionManagerd large, small;
-  std::vector<fcl::CollisionObjectd*> movedLarge, movedSmall;
-  static constexpr double kFurthest = 1e90;  // m
-
-  // FCL multiplies sides, and chooses between volumes: beyond kFurthest it would choose none.
-  void place(Item& item, const Bounds& bounds) const {
-    const Vec3 low = bounds.low.cwiseMax(-kFurthest).cwiseMin(kFurthest);
-    const Vec3 high = bounds.high.cwiseMax(-kFurthest).cwiseMin(kFurthest);
-    item.box->side = high - low;
-    item.box->computeLocalAABB();
-    item.object->setTranslation(0.5 * (low + high));
-    item.object->computeAABB();
-  }
-};
-
 namespace {
 
-bool append(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* data) {
-  const auto number = [](const fcl::CollisionObjectd* object) {
-    return static_cast<int>(reinterpret_cast<std::intptr_t>(object->getUserData()));
-  };
-  if (p != q) {
-    static_cast<std::vector<std::array<int, 2>>*>(data)->push_back({number(p), number(q)});
-  }
-  return false;
+using Tree = fcl::detail::HierarchyTree<fcl::AABBd>;
+using Node = fcl::detail::NodeBase<fcl::AABBd>;
+
+// FCL multiplies sides, and chooses between volumes: beyond this it would choose none.
+constexpr double kFurthest = 1e90;  // m
+
+fcl::AABBd boxOf(const Bounds& bounds) {
+  fcl::AABBd box;
+  box.min_ = bounds.low.cwiseMax(-kFurthest).cwiseMin(kFurthest);
+  box.max_ = bounds.high.cwiseMax(-kFurthest).cwiseMin(kFurthest);
+  return box;
+}
+
+bool overlap(const fcl::AABBd& p, const fcl::AABBd& q) {
+  bool apart = false;
+  for (int k = 0; k < 3; ++k) apart |= p.min_[k] > q.max_[k] || q.min_[k] > p.max_[k];
+  return !apart;
 }
 
 }  // namespace
+
+struct BroadPhase::Impl {
+  struct Item {
+    Node* leaf = nullptr;
+    bool small = false;
+  };
+  struct Part {
+    Tree tree;
+    std::vector<const Node*> open;
+    std::size_t deepest = 0;  // of the last walks: how many nodes were left open
+
+    // A little of it each time; all of it where it got deep. As FCL's manager does.
+    void balance() {
+      const auto least = static_cast<std::size_t>(std::bit_width(tree.size()));
+      if (deepest > least + 10) {
+        tree.balanceTopdown();
+      } else {
+        tree.balanceIncremental(10);
+      }
+      deepest = 0;
+    }
+  };
+  std::vector<Item> items;
+  Part large, small;
+
+  Part& partOf(const Item& item) { return item.small ? small : large; }
+
+  void appendOverlaps(Part& part, int i, std::vector<std::array<int, 2>>& found) const {
+    if (part.tree.empty()) return;
+    const Node* self = items[i].leaf;
+    const fcl::AABBd box = self->bv;
+    part.open.assign(1, part.tree.getRoot());
+    while (!part.open.empty()) {
+      const Node* node = part.open.back();
+      part.open.pop_back();
+      if (!overlap(node->bv, box)) continue;
+      if (node->children[1] != nullptr) {
+        part.deepest = std::max(part.deepest, part.open.size());
+        part.open.push_back(node->children[0]);
+        part.open.push_back(node->children[1]);
+      } else if (node != self) {
+        found.push_back({i, static_cast<int>(reinterpret_cast<std::intptr_t>(node->data))});
+      }
+    }
+  }
+};
 
 BroadPhase::BroadPhase() : impl_(std::make_unique<Impl>()) {}
 BroadPhase::~BroadPhase() = default;
 
 void BroadPhase::add(const Bounds& bounds, bool small) {
-  Impl::Item item;
-  item.small = small;
-  item.box = std::make_shared<fcl::Boxd>(1, 1, 1);
-  item.object = std::make_unique<fcl::CollisionObjectd>(item.box);
-  item.object->setUserData(
-      reinterpret_cast<void*>(static_cast<std::intptr_t>(impl_->items.size())));
-  impl_->place(item, bounds);
-  (small ? impl_->small : impl_->large).registerObject(item.object.get());
-  impl_->items.push_back(std::move(item));
+  Impl::Item item{nullptr, small};
+  const auto number = static_cast<std::intptr_t>(impl_->items.size());
+  item.leaf = impl_->partOf(item).tree.insert(boxOf(bounds), reinterpret_cast<void*>(number));
+  impl_->items.push_back(item);
 }
 
-std::size_t BroadPhase::bytes() const {
-  using Node = fcl::detail::NodeBase<fcl::AABBd>;  // a binary tree has two for each leaf
-  const std::size_t each = sizeof(Impl::Item) + sizeof(fcl::Boxd) + sizeof(fcl::CollisionObjectd);
-  return sizeof(Impl) + impl_->items.size() * (each + 2 * sizeof(Node)) +
-         (impl_->movedLarge.capacity() + impl_->movedSmall.capacity()) * sizeof(void*);
+std::size_t BroadPhase::bytes() const {  // a binary tree has two nodes for each leaf
+  return sizeof(Impl) + impl_->items.size() * (sizeof(Impl::Item) + 2 * sizeof(Node)) +
+         (impl_->large.open.capacity() + impl_->small.open.capacity()) * sizeof(void*);
 }
 
 void BroadPhase::update(std::span<const int> moved, std::span<const Bounds> bounds,
                         std::vector<std::array<int, 2>>& found) {
-  impl_->movedLarge.clear();
-  impl_->movedSmall.clear();
-  for (const int i : moved) {
-    Impl::Item& item = impl_->items[i];
-    impl_->place(item, bounds[i]);
-    (item.small ? impl_->movedSmall : impl_->movedLarge).push_back(item.object.get());
-  }
-  if (!impl_->movedLarge.empty()) impl_->large.update(impl_->movedLarge);
-  if (!impl_->movedSmall.empty()) impl_->small.update(impl_->movedSmall);
   for (const int i : moved) {
     const Impl::Item& item = impl_->items[i];
-    impl_->large.collide(item.object.get(), &found, append);
-    if (!item.small) impl_->small.collide(item.object.get(), &found, append);
+    Impl::Part& part = impl_->partOf(item);
+    const fcl::AABBd box = boxOf(bounds[i]);
+    if (!item.leaf->bv.equal(box)) part.tree.update(item.leaf, box);
+  }
+  for (Impl::Part* part : {&impl_->large, &impl_->small}) part->balance();
+  for (const int i : moved) {
+    const Impl::Item& item = impl_->items[i];
+    impl_->appendOverlaps(impl_->large, i, found);
+    if (!item.small) impl_->appendOverlaps(impl_->small, i, found);
   }
 }
 

@@ -41,13 +41,13 @@ double approach(const Item& a, const Item& b) {
 struct Collider::Impl {
   Pairs pairs;
   std::vector<Manifold> manifolds;  // the result; it keeps what has not changed
-  std::vector<int> sources;         // the watch that each was copied from
+  std::vector<int> sources;         // the finding that each was copied from
   std::int64_t narrowPhaseCalls = 0;
 
   struct Step {
     std::span<const Pose> start, end;
     double margin = 0;
-  };
+  } step;  // that prepare() was given
 
   // Nothing was found, and along the direction that told them apart they do not come near.
   static bool staysApart(Watch& watch, const Item& a, const Item& b, double near) {
@@ -79,85 +79,97 @@ struct Collider::Impl {
     return {toB * a.R, toB * (a.x - b.x)};
   }
 
-  // True when the pair was looked at anew.
-  bool look(Watch& watch, Finding& found, const Step& step) {
+  // What was found before is true of the pair still.
+  static bool stays(Watch& watch, const Finding& found, const Item& a, const Item& b, double reach,
+                    double margin) {
+    const double travel = a.travel + b.travel - watch.travel;
+    if (watch.count == 0 && watch.distance - travel > reach) return true;
+    if (watch.count == 0 && staysApart(watch, a, b, margin)) return true;
+    const double still = kStill * smallerSize(a.solid, b.solid);
+    if (reach <= watch.reach && travel <= still) return true;
+    return holds(watch, found, a, b, relativePose(a, b), reach);
+  }
+
+  // Changes the watch and what belongs to it, and nothing else: pairs may be looked at side by
+  // side.
+  void look(Watch& watch) {
     const Item &a = pairs.items()[watch.a], &b = pairs.items()[watch.b];
+    Finding& found = pairs.finding(watch);
     const double reach = step.margin + approach(a, b);
-    if (watch.known) {
-      const double travel = a.travel + b.travel - watch.travel;
-      if (watch.count == 0 && watch.distance - travel > reach) return false;
-      if (watch.count == 0 && staysApart(watch, a, b, step.margin)) return false;
-      const double still = kStill * smallerSize(a.solid, b.solid);
-      if (reach <= watch.reach && travel <= still) return false;
-    }
-    const Relative pose = relativePose(a, b);
-    if (watch.known && holds(watch, found, a, b, pose, reach)) return false;
-    const bool plane = b.solid.kind == Kind::plane;
+    watch.calls = 0;
+    watch.isNew = !watch.known || !stays(watch, found, a, b, reach, step.margin);
+    if (!watch.isNew) return;
     watch.known = true;
     watch.travel = a.travel + b.travel;
     watch.reach = reach + kSpare * step.margin;
-    found.pose = pose;
+    found.pose = relativePose(a, b);
+    const bool plane = b.solid.kind == Kind::plane;
     const double near = plane || isShort(a, b, reach - step.margin) ? reach : step.margin;
     watch.distance = touch(a.solid, b.solid, found.pose, near, watch.reach, found.manifold);
     watch.n = found.manifold.normal;
-    ++narrowPhaseCalls;
+    ++watch.calls;
     const bool onTheWay = watch.distance > near && watch.distance <= reach &&
                           watch.distance <= near + approach(a, b, b.R * watch.n);
-    if (onTheWay) lookAlong(found.manifold, a, b, step);
-    watch.count = found.manifold.count;
+    if (onTheWay) watch.calls += lookAlong(found.manifold, a, b);
+    watch.count = static_cast<std::uint8_t>(found.manifold.count);
     watch.known = !onTheWay || watch.count == 0;
-    return true;
   }
 
   // Not near at the start but fast enough to be within the step: the manifold of the first touch,
-  // or, when there is none, that of the end.
-  void lookAlong(Manifold& manifold, const Item& a, const Item& b, const Step& step) {
+  // or, when there is none, that of the end. How many evaluations that took.
+  std::uint8_t lookAlong(Manifold& manifold, const Item& a, const Item& b) const {
     const Way wayA{step.start[a.body], step.end[a.body]};
     const Way wayB{step.start[b.body], step.end[b.body]};
     const double close = std::max(0.1 * step.margin, 1e-4 * smallerSize(a.solid, b.solid));
-    const double part =
-        firstTouch(a.solid, wayA, b.solid, wayB, close, narrowPhaseCalls).value_or(1.0);
+    int calls = 1;
+    const double part = firstTouch(a.solid, wayA, b.solid, wayB, close, calls).value_or(1.0);
     const Relative pose = collision::relativePose(along(wayA, part), along(wayB, part));
     const double near = std::max(close, step.margin);
     const double keep = near + (1 - part) * approach(a, b);
     touch(a.solid, b.solid, pose, near, keep, manifold);
-    ++narrowPhaseCalls;
+    return static_cast<std::uint8_t>(calls);
   }
 
-  // Pairs lie in the order that they were found in, and bodies in theirs: without this a look waits
-  // for memory most of the time.
+  // Watches lie in their order, but bodies in theirs: without this a look waits for memory most of
+  // the time.
   void fetchAhead(std::size_t k) {
-    constexpr std::size_t kWatch = 16, kItems = 8, kLine = 64;
-    const std::vector<Pairs::Key>& keys = pairs.keys();
+    constexpr std::size_t kAhead = 8, kLine = 64;
+    const std::vector<Watch>& watches = pairs.watches();
     const auto fetch = [](const void* from, std::size_t bytes) {
       for (std::size_t i = 0; i < bytes; i += kLine) {
         __builtin_prefetch(static_cast<const char*>(from) + i);
       }
     };
-    if (k + kWatch < keys.size()) fetch(&pairs.watch(keys[k + kWatch]), sizeof(Watch));
-    if (k + kItems >= keys.size()) return;
-    const Watch& watch = pairs.watch(keys[k + kItems]);
-    fetch(&pairs.items()[watch.a], Item::kHot);
-    fetch(&pairs.items()[watch.b], Item::kHot);
-    fetch(&pairs.finding(keys[k + kItems]), sizeof(Relative));
+    if (k + kAhead >= watches.size()) return;
+    const Watch& watch = watches[k + kAhead];
+    for (const Item* item : {&pairs.items()[watch.a], &pairs.items()[watch.b]}) {
+      fetch(item, 2 * kLine);
+      fetch(&item->x, sizeof(Vec3) + sizeof(Mat3));
+    }
+    if (watch.count > 0) fetch(&pairs.finding(watch), sizeof(Relative));
   }
 
-  void lookAtAll(const Step& step) {
-    std::size_t count = 0;
-    const std::vector<Pairs::Key>& keys = pairs.keys();
-    for (std::size_t k = 0; k < keys.size(); ++k) {
+  void lookAt(std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) {
       fetchAhead(k);
-      const Pairs::Key& key = keys[k];
-      Watch& watch = pairs.watch(key);
-      const bool anew = look(watch, pairs.finding(key), step);
+      look(pairs.watches()[k]);
+    }
+  }
+
+  void gather() {
+    std::size_t count = 0;
+    for (const Watch& watch : pairs.watches()) {
+      narrowPhaseCalls += watch.calls;
       if (watch.count == 0) continue;
       if (count == sources.size()) {
         sources.push_back(-1);
         manifolds.emplace_back();
       }
-      if (anew || sources[count] != key.watch) manifolds[count] = pairs.finding(key).manifold;
-      manifolds[count].isNew = anew;
-      sources[count++] = key.watch;
+      if (watch.isNew || sources[count] != watch.finding) {
+        manifolds[count] = pairs.finding(watch).manifold;
+      }
+      manifolds[count].isNew = watch.isNew;
+      sources[count++] = watch.finding;
     }
     sources.resize(count);
     manifolds.resize(count);
@@ -186,13 +198,31 @@ std::span<const std::pair<BodyId, BodyId>> Collider::ignored() const {
 
 std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<const Pose> end,
                                          double margin) {
-  require(margin >= 0, "collider: margin must not be negative");
-  if (!impl_) return {};
   turnTo("broad_phase");
-  impl_->pairs.update(start, end, margin);
+  const std::size_t pairs = prepare(start, end, margin);
   turnTo("narrow_phase");
-  impl_->lookAtAll({start, end, margin});
+  lookAt(0, pairs);
+  const std::span<const Manifold> found = gather();
   turnTo("contact");
+  return found;
+}
+
+std::size_t Collider::prepare(std::span<const Pose> start, std::span<const Pose> end,
+                              double margin) {
+  require(margin >= 0, "collider: margin must not be negative");
+  if (!impl_) return 0;
+  impl_->pairs.update(start, end, margin);
+  impl_->step = {start, end, margin};
+  return impl_->pairs.watches().size();
+}
+
+void Collider::lookAt(std::size_t from, std::size_t to) {
+  if (impl_) impl_->lookAt(from, to);
+}
+
+std::span<const Manifold> Collider::gather() {
+  if (!impl_) return {};
+  impl_->gather();
   return impl_->manifolds;
 }
 
@@ -226,7 +256,7 @@ double Collider::distance(BodyId a, const Pose& poseA, BodyId b, const Pose& pos
 Collider::Counts Collider::counts() const {
   if (!impl_) return {};
   return {impl_->narrowPhaseCalls, impl_->pairs.broadPhaseCalls(),
-          static_cast<int>(impl_->pairs.keys().size())};
+          static_cast<int>(impl_->pairs.watches().size())};
 }
 
 std::size_t Collider::bytes() const {

@@ -60,6 +60,13 @@ class Collider {
   std::span<const Manifold> find(std::span<const Pose> start, std::span<const Pose> end,
                                  double margin);
 
+  // find() in three parts. prepare() tells how many pairs there are to look at; lookAt() looks at
+  // those from `from` up to `to`, in any order and on any thread: a pair is looked at once, and
+  // what is found of it depends on no other. `start` and `end` must last until gather().
+  std::size_t prepare(std::span<const Pose> start, std::span<const Pose> end, double margin);
+  void lookAt(std::size_t from, std::size_t to);
+  std::span<const Manifold> gather();
+
   // True when one of `bodies`, moving from `start` to `end`, leaves the bounds that the last find()
   // looked in: contacts may be missing, call find() again.
   bool outdated(std::span<const Pose> start, std::span<const Pose> end,

@@ -107,48 +107,44 @@ bool Pairs::touches(int p, int q) const {
   return overlap(fat_[p], fat_[q]);
 }
 
-Pairs::Key Pairs::keyOf(int p, int q) const {
-  if (!isFirst(items_[p], items_[q])) std::swap(p, q);
-  return {items_[p].body, items_[q].body, -1};
-}
-
-int Pairs::takeWatch(int p, int q) {
+Watch Pairs::newWatch(int p, int q) {
   if (free_.empty()) {
-    free_.push_back(static_cast<int>(watches_.size()));
-    watches_.emplace_back();
+    free_.push_back(static_cast<int>(findings_.size()));
     findings_.emplace_back();
   }
-  const int index = free_.back();
-  free_.pop_back();
-  Watch& watch = watches_[index];
+  Watch watch;
   watch.a = p;
   watch.b = q;
-  watch.known = false;
-  findings_[index].manifold.a = items_[p].body;
-  findings_[index].manifold.b = items_[q].body;
-  return index;
+  watch.finding = free_.back();
+  free_.pop_back();
+  findings_[watch.finding].manifold.a = items_[p].body;
+  findings_[watch.finding].manifold.b = items_[q].body;
+  return watch;
 }
 
 void Pairs::dropParted() {
   std::size_t kept = 0;
-  for (const Key& key : keys_) {
-    const int p = indexOf_[key.a], q = indexOf_[key.b];
+  for (std::size_t k = 0; k < watches_.size(); ++k) {
+    const auto [p, q] = watches_[k].items();
     const bool asBefore = !moved_[p] && !moved_[q] && !ignoredMore_;
     if (asBefore || (touches(p, q) && (!ignoredMore_ || wanted(items_[p], items_[q])))) {
-      keys_[kept++] = key;
+      if (kept < k) watches_[kept] = watches_[k];
+      ++kept;
     } else {
-      free_.push_back(key.watch);
+      free_.push_back(watches_[k].finding);
     }
   }
-  keys_.resize(kept);
+  watches_.resize(kept);
+}
+
+void Pairs::offer(int p, int q) {
+  if (items_[p].rests && items_[q].rests) return;
+  if (!touches(p, q) || !wanted(items_[p], items_[q])) return;
+  fresh_.push_back(isFirst(items_[p], items_[q]) ? std::pair(p, q) : std::pair(q, p));
 }
 
 void Pairs::findNew() {
   fresh_.clear();
-  const auto offer = [&](int p, int q) {
-    if (items_[p].rests && items_[q].rests) return;
-    if (touches(p, q) && wanted(items_[p], items_[q])) fresh_.push_back(keyOf(p, q));
-  };
   for (const auto& [s, t] : found_) {
     const int p = itemOfTree_[s], q = itemOfTree_[t];
     const bool twice = moved_[p] && moved_[q];  // found from both
@@ -159,19 +155,24 @@ void Pairs::findNew() {
   }
   std::sort(fresh_.begin(), fresh_.end());
   fresh_.erase(std::unique(fresh_.begin(), fresh_.end()), fresh_.end());
-  merged_.clear();
-  auto old = keys_.begin();
-  for (Key key : fresh_) {
-    const auto before = [](const Key& l, const Key& r) {
-      return std::pair(l.a, l.b) < std::pair(r.a, r.b);
-    };
-    while (old != keys_.end() && before(*old, key)) merged_.push_back(*old++);
-    if (old != keys_.end() && !before(key, *old)) continue;
-    key.watch = takeWatch(indexOf_[key.a], indexOf_[key.b]);
-    merged_.push_back(key);
+  mergeFresh();
+}
+
+// Those of fresh_ that are not watched yet take their places, from the back.
+void Pairs::mergeFresh() {
+  std::size_t old = 0;
+  std::erase_if(fresh_, [&](const std::pair<int, int>& pair) {
+    while (old < watches_.size() && watches_[old].items() < pair) ++old;
+    return old < watches_.size() && watches_[old].items() == pair;
+  });
+  old = watches_.size();
+  std::size_t to = old + fresh_.size();
+  watches_.resize(to);
+  for (std::size_t k = fresh_.size(); k-- > 0;) {
+    const auto [p, q] = fresh_[k];
+    while (old > 0 && fresh_[k] < watches_[old - 1].items()) watches_[--to] = watches_[--old];
+    watches_[--to] = newWatch(p, q);
   }
-  merged_.insert(merged_.end(), old, keys_.end());
-  keys_.swap(merged_);
 }
 
 bool Pairs::takeMotion(Item& item, const Pose& from, const Pose& to) {

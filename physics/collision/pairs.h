@@ -1,6 +1,7 @@
 // The pairs of bodies near enough to be watched, found by fat bounds and kept in order.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -12,30 +13,33 @@
 namespace physics::collision {
 
 // A body as the collider knows it, with its motion in the present step.
-struct Item {
+struct alignas(64) Item {
+  double travel = 0;  // length of the way of its points so far, at most [m]
+  double turn = 0;    // the furthest that turning moves a point of the core in this step [m]
+  Vec3 move = Vec3::Zero();
   BodyId body = 0;
   bool movable = false;
-  bool rests = false;  // stands still until it is woken
-  double travel = 0;   // length of the way of its points so far, at most [m]
-  double turn = 0;     // the furthest that turning moves a point of the core in this step [m]
-  Vec3 move = Vec3::Zero();
+  bool rests = false;     // stands still until it is woken
+  Solid solid;            // its first members lie in the same line of the cache
   Vec3 x = Vec3::Zero();  // at the start
   Mat3 R = Mat3::Identity();
-  Solid solid;
   Pose from, to;  // the motion that find() was given
-
-  static constexpr std::size_t kHot = 256;  // bytes of it that are read for each pair
 };
 
 // Two items, and what is known of them since their last narrow phase.
 struct Watch {
   int a = 0, b = 0;
+  int finding = 0;         // what was found is kept there
+  std::uint8_t count = 0;  // of the points found then
   bool known = false;
-  int count = 0;           // of the points found then
+  bool isNew = false;      // it was the last look
+  std::uint8_t calls = 0;  // narrow-phase evaluations of the last look
   double travel = 0;       // of both items together, then
   double distance = 0;     // then, or a lower bound
   double reach = 0;        // how far was looked
   Vec3 n = Vec3::UnitY();  // b's frame: without points, they are `distance` apart along it
+
+  std::pair<int, int> items() const { return {a, b}; }
 };
 struct Finding {
   Relative pose;
@@ -64,14 +68,9 @@ class Pairs {
   const std::vector<Item>& items() const { return items_; }
   int indexOf(BodyId body) const;  // -1: no shape
 
-  struct Key {
-    BodyId a = 0, b = 0;
-    int watch = 0;
-    auto operator<=>(const Key&) const = default;
-  };
-  const std::vector<Key>& keys() const { return keys_; }  // sorted by (a, b)
-  Watch& watch(const Key& key) { return watches_[key.watch]; }
-  Finding& finding(const Key& key) { return findings_[key.watch]; }
+  std::vector<Watch>& watches() { return watches_; }  // sorted by (a, b)
+  const std::vector<Watch>& watches() const { return watches_; }
+  Finding& finding(const Watch& watch) { return findings_[watch.finding]; }
   std::int64_t broadPhaseCalls() const { return broadPhaseCalls_; }
 
  private:
@@ -79,13 +78,14 @@ class Pairs {
   void fatten(int item, const Bounds& bounds, double margin);
   bool takeMotions(std::span<const Pose> start, std::span<const Pose> end, bool all);
   void takeBounds(int item, double margin, bool all);
-  bool bothRest(const Key& key) const;
+  bool bothRest(const Watch& watch) const { return items_[watch.a].rests && items_[watch.b].rests; }
   bool wanted(const Item& p, const Item& q) const;
-  Key keyOf(int p, int q) const;
   bool touches(int p, int q) const;  // of the fat bounds
   void dropParted();
+  void offer(int p, int q);
   void findNew();
-  int takeWatch(int p, int q);
+  void mergeFresh();
+  Watch newWatch(int p, int q);
 
   std::vector<Item> items_;
   std::vector<Bounds> fat_;
@@ -100,11 +100,11 @@ class Pairs {
   double margin_ = -1;  // of the fat bounds
   std::int64_t broadPhaseCalls_ = 0;
 
-  std::vector<Key> keys_, fresh_, merged_;
-  std::vector<Key> parked_;  // pairs of two that rest; sorted
   std::vector<Watch> watches_;
+  std::vector<Watch> parked_;      // of two that rest; sorted
   std::vector<Finding> findings_;  // beside the watches: seldom read while at rest
-  std::vector<int> free_;
+  std::vector<int> free_;          // of the findings
+  std::vector<std::pair<int, int>> fresh_;
   std::vector<char> moved_;  // by item
   std::vector<int> movedTree_;
   std::vector<Bounds> treeBounds_;

@@ -12,26 +12,20 @@ std::size_t bytesOf(const std::vector<T>& list) {
   return list.capacity() * sizeof(T);
 }
 
-bool byBodies(const Pairs::Key& p, const Pairs::Key& q) {
-  return std::pair(p.a, p.b) < std::pair(q.a, q.b);
-}
+bool byItems(const Watch& p, const Watch& q) { return p.items() < q.items(); }
 
 // Moves what `leaves` from one sorted list to another.
 template <class F>
-void carry(std::vector<Pairs::Key>& from, std::vector<Pairs::Key>& to, F&& leaves) {
-  const auto stays = [&](const Pairs::Key& key) { return !leaves(key); };
+void carry(std::vector<Watch>& from, std::vector<Watch>& to, F&& leaves) {
+  const auto stays = [&](const Watch& watch) { return !leaves(watch); };
   const auto gone = std::stable_partition(from.begin(), from.end(), stays);
   const auto middle = static_cast<std::ptrdiff_t>(to.size());
   to.insert(to.end(), gone, from.end());
   from.erase(gone, from.end());
-  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byBodies);
+  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byItems);
 }
 
 }  // namespace
-
-bool Pairs::bothRest(const Key& key) const {
-  return items_[indexOf_[key.a]].rests && items_[indexOf_[key.b]].rests;
-}
 
 void Pairs::rest(std::span<const BodyId> bodies, std::span<const Pose> poses) {
   for (const BodyId body : bodies) {
@@ -43,7 +37,7 @@ void Pairs::rest(std::span<const BodyId> bodies, std::span<const Pose> poses) {
     late_.push_back(i);
   }
   std::erase_if(moving_, [&](int i) { return items_[i].rests; });
-  carry(keys_, parked_, [&](const Key& key) { return bothRest(key); });
+  carry(watches_, parked_, [&](const Watch& watch) { return bothRest(watch); });
 }
 
 void Pairs::wake(std::span<const BodyId> bodies) {
@@ -58,7 +52,7 @@ void Pairs::wake(std::span<const BodyId> bodies) {
   }
   std::inplace_merge(moving_.begin(), moving_.begin() + middle, moving_.end());
   std::erase_if(late_, [&](int i) { return !items_[i].rests; });
-  carry(parked_, keys_, [&](const Key& key) { return !bothRest(key); });
+  carry(parked_, watches_, [&](const Watch& watch) { return !bothRest(watch); });
 }
 
 // Of the pairs that there are, how many are ignored? Points never touch one another.
@@ -82,10 +76,9 @@ bool Pairs::canTouch() const {
 std::size_t Pairs::bytes() const {
   std::size_t sum = bytesOf(items_) + bytesOf(fat_) + bytesOf(indexOf_) + bytesOf(planes_) +
                     bytesOf(moving_) + bytesOf(late_) + bytesOf(treeIndex_) + bytesOf(itemOfTree_) +
-                    bytesOf(ignored_) + bytesOf(keys_) + bytesOf(fresh_) + bytesOf(merged_) +
-                    bytesOf(parked_) + bytesOf(watches_) + bytesOf(findings_) + bytesOf(free_) +
-                    bytesOf(moved_) + bytesOf(movedTree_) + bytesOf(treeBounds_) + bytesOf(found_) +
-                    tree_.bytes();
+                    bytesOf(ignored_) + bytesOf(fresh_) + bytesOf(parked_) + bytesOf(watches_) +
+                    bytesOf(findings_) + bytesOf(free_) + bytesOf(moved_) + bytesOf(movedTree_) +
+                    bytesOf(treeBounds_) + bytesOf(found_) + tree_.bytes();
   for (const Item& item : items_) sum += bytesOf(item.solid.edges);
   return sum;
 }

@@ -22,11 +22,11 @@ struct Edge {
 struct Solid {
   Kind kind = Kind::point;
   double size = 0;                    // bounding radius; 0 for point and plane
-  double coreRadius = 0;              // reach of the core from the origin
-  double thickness = 0;               // smallest full extent; 0 for point and plane
-  double rounding = 0;                // radius around the core: sphere, capsule
-  double radius = 0, halfLength = 0;  // of a cylinder or capsule, along y
   Vec3 half = Vec3::Zero();           // of the core of a box or capsule
+  double rounding = 0;                // radius around the core: sphere, capsule
+  double thickness = 0;               // smallest full extent; 0 for point and plane
+  double coreRadius = 0;              // reach of the core from the origin
+  double radius = 0, halfLength = 0;  // of a cylinder or capsule, along y
   std::shared_ptr<const Hull> hull;   // of a box or convex
   std::vector<Edge> edges;            // of a box or convex
   Vec3 normal = Vec3::UnitY();        // of a plane: normal . p <= offset is solid

@@ -30,7 +30,7 @@ Pose along(const Way& way, double part) {
 }
 
 std::optional<double> firstTouch(const Solid& a, const Way& wayA, const Solid& b, const Way& wayB,
-                                 double near, std::int64_t& calls) {
+                                 double near, int& calls) {
   const Vec3 move = (wayA.end.x - wayA.start.x) - (wayB.end.x - wayB.start.x);
   const double turning = turningRate(wayA) * a.coreRadius + turningRate(wayB) * b.coreRadius;
   double part = 0;
