@@ -32,7 +32,7 @@ double approach(const Item& a, const Item& b, const Vec3& n) {
 
 // The same in any direction; towards a plane there is but one.
 double approach(const Item& a, const Item& b) {
-  if (b.solid.kind != Kind::plane) return (a.move - b.move).norm() + a.turn + b.turn;
+  if (!b.isPlane) return (a.move - b.move).norm() + a.turn + b.turn;
   return approach(a, b, b.R * b.solid.normal);
 }
 
@@ -103,8 +103,7 @@ struct Collider::Impl {
     watch.travel = a.travel + b.travel;
     watch.reach = reach + kSpare * step.margin;
     found.pose = relativePose(a, b);
-    const bool plane = b.solid.kind == Kind::plane;
-    const double near = plane || isShort(a, b, reach - step.margin) ? reach : step.margin;
+    const double near = b.isPlane || isShort(a, b, reach - step.margin) ? reach : step.margin;
     watch.distance = touch(a.solid, b.solid, found.pose, near, watch.reach, found.manifold);
     watch.n = found.manifold.normal;
     ++watch.calls;
@@ -142,10 +141,9 @@ struct Collider::Impl {
     };
     if (k + kAhead >= watches.size()) return;
     const Watch& watch = watches[k + kAhead];
-    for (const Item* item : {&pairs.items()[watch.a], &pairs.items()[watch.b]}) {
-      fetch(item, 2 * kLine);
-      fetch(&item->x, sizeof(Vec3) + sizeof(Mat3));
-    }
+    constexpr std::size_t kHot = 4 * kLine;  // of an item
+    fetch(&pairs.items()[watch.a], kHot);
+    fetch(&pairs.items()[watch.b], kHot);
     if (watch.count > 0) fetch(&pairs.finding(watch), sizeof(Relative));
   }
 

@@ -69,11 +69,13 @@ void Pairs::add(BodyId body, const Shape& shape, bool movable) {
   item.body = body;
   item.movable = movable;
   item.solid = makeSolid(shape);
-  require(!movable || item.solid.kind != Kind::plane, "collider: a plane must not be movable");
+  item.isPlane = item.solid.kind == Kind::plane;
+  require(!movable || !item.isPlane, "collider: a plane must not be movable");
   indexOf_.resize(static_cast<std::size_t>(body) + 1, -1);
   indexOf_[body] = static_cast<int>(items_.size());
-  if (item.solid.kind == Kind::plane) planes_.push_back(indexOf_[body]);
+  if (item.isPlane) planes_.push_back(indexOf_[body]);
   items_.push_back(std::move(item));
+  told_.emplace_back();
   moving_.push_back(static_cast<int>(items_.size()) - 1);
   treeIndex_.push_back(-1);
   moved_.push_back(1);
@@ -102,8 +104,8 @@ bool Pairs::wanted(const Item& p, const Item& q) const {
 }
 
 bool Pairs::touches(int p, int q) const {
-  if (items_[p].solid.kind == Kind::plane) return reaches(fat_[q], items_[p]);
-  if (items_[q].solid.kind == Kind::plane) return reaches(fat_[p], items_[q]);
+  if (items_[p].isPlane) return reaches(fat_[q], items_[p]);
+  if (items_[q].isPlane) return reaches(fat_[p], items_[q]);
   return overlap(fat_[p], fat_[q]);
 }
 
@@ -175,17 +177,16 @@ void Pairs::mergeFresh() {
   }
 }
 
-bool Pairs::takeMotion(Item& item, const Pose& from, const Pose& to) {
+bool Pairs::takeMotion(int i, const Pose& from, const Pose& to) {
+  Item& item = items_[i];
   const Mat3 R = from.q.toRotationMatrix();
-  const bool plane = item.solid.kind == Kind::plane;
-  const bool planeMoved = plane && (R != item.R || from.x != item.x);
-  const double reach = plane ? kPlaneReach : item.solid.size;
+  const bool planeMoved = item.isPlane && (R != item.R || from.x != item.x);
+  const double reach = item.isPlane ? kPlaneReach : item.solid.size;
   item.travel += (from.x - item.x).norm() + reach * std::sqrt(0.5) * (R - item.R).norm();
   item.R = R;
   item.x = from.x;
   item.move = to.x - from.x;
-  item.from = from;
-  item.to = to;
+  told_[i] = {from, to};
   item.turn = item.solid.coreRadius * 2 * (from.q.conjugate() * to.q).vec().norm();
   return planeMoved;
 }
@@ -206,17 +207,17 @@ void Pairs::fatten(int i, const Bounds& bounds, double margin) {
 // True: every bound has to be taken anew.
 bool Pairs::takeMotions(std::span<const Pose> start, std::span<const Pose> end, bool all) {
   for (const int i : moving_) {
-    all = takeMotion(items_[i], start[items_[i].body], end[items_[i].body]) || all;
+    all = takeMotion(i, start[items_[i].body], end[items_[i].body]) || all;
   }
   for (const int i : late_) {
-    all = takeMotion(items_[i], start[items_[i].body], end[items_[i].body]) || all;
+    all = takeMotion(i, start[items_[i].body], end[items_[i].body]) || all;
   }
   return all;
 }
 
 void Pairs::takeBounds(int i, double margin, bool all) {
   const Item& item = items_[i];
-  if (item.solid.kind == Kind::plane) return;
+  if (item.isPlane) return;
   const Bounds bounds = path(item);
   moved_[i] = all || !within(grown(bounds, margin), fat_[i]);
   if (moved_[i]) fatten(i, bounds, margin);
@@ -248,11 +249,11 @@ bool Pairs::outdated(std::span<const Pose> start, std::span<const Pose> end,
                      std::span<const BodyId> bodies) const {
   for (const BodyId body : bodies) {
     const int i = indexOf(body);
-    if (i < 0 || items_[i].solid.kind == Kind::plane) continue;
+    if (i < 0 || items_[i].isPlane) continue;
     // Pairs are found within fat_, but what is told of them is of the motion that find() was given.
     const Item& item = items_[i];
-    const Bounds told =
-        fattened(item.solid, swept(item.solid, item.from, item.to), item.move, margin_, 1);
+    const auto& [from, to] = told_[i];
+    const Bounds told = fattened(item.solid, swept(item.solid, from, to), item.move, margin_, 1);
     if (!within(swept(item.solid, start[body], end[body]), told)) return true;
   }
   return false;

@@ -12,18 +12,19 @@
 
 namespace physics::collision {
 
-// A body as the collider knows it, with its motion in the present step.
+// A body as the collider knows it, with its motion in the present step. What is read for most pairs
+// comes first, in a line of the cache.
 struct alignas(64) Item {
   double travel = 0;  // length of the way of its points so far, at most [m]
   double turn = 0;    // the furthest that turning moves a point of the core in this step [m]
   Vec3 move = Vec3::Zero();
   BodyId body = 0;
   bool movable = false;
-  bool rests = false;     // stands still until it is woken
-  Solid solid;            // its first members lie in the same line of the cache
+  bool rests = false;  // stands still until it is woken
+  bool isPlane = false;
   Vec3 x = Vec3::Zero();  // at the start
   Mat3 R = Mat3::Identity();
-  Pose from, to;  // the motion that find() was given
+  Solid solid;
 };
 
 // Two items, and what is known of them since their last narrow phase.
@@ -74,7 +75,7 @@ class Pairs {
   std::int64_t broadPhaseCalls() const { return broadPhaseCalls_; }
 
  private:
-  static bool takeMotion(Item& item, const Pose& from, const Pose& to);  // true: a plane moved
+  bool takeMotion(int item, const Pose& from, const Pose& to);  // true: a plane moved
   void fatten(int item, const Bounds& bounds, double margin);
   bool takeMotions(std::span<const Pose> start, std::span<const Pose> end, bool all);
   void takeBounds(int item, double margin, bool all);
@@ -88,6 +89,7 @@ class Pairs {
   Watch newWatch(int p, int q);
 
   std::vector<Item> items_;
+  std::vector<std::pair<Pose, Pose>> told_;  // by item: the motion that find() was given
   std::vector<Bounds> fat_;
   std::vector<int> indexOf_;  // by BodyId
   std::vector<int> planes_;   // items that are planes; the tree does not know them

@@ -32,7 +32,7 @@ void Pairs::rest(std::span<const BodyId> bodies, std::span<const Pose> poses) {
     const int i = indexOf(body);
     if (i < 0 || items_[i].rests) continue;
     items_[i].rests = true;
-    takeMotion(items_[i], poses[body], poses[body]);
+    takeMotion(i, poses[body], poses[body]);
     moved_[i] = 0;
     late_.push_back(i);
   }
@@ -74,11 +74,11 @@ bool Pairs::canTouch() const {
 }
 
 std::size_t Pairs::bytes() const {
-  std::size_t sum = bytesOf(items_) + bytesOf(fat_) + bytesOf(indexOf_) + bytesOf(planes_) +
-                    bytesOf(moving_) + bytesOf(late_) + bytesOf(treeIndex_) + bytesOf(itemOfTree_) +
-                    bytesOf(ignored_) + bytesOf(fresh_) + bytesOf(parked_) + bytesOf(watches_) +
-                    bytesOf(findings_) + bytesOf(free_) + bytesOf(moved_) + bytesOf(movedTree_) +
-                    bytesOf(treeBounds_) + bytesOf(found_) + tree_.bytes();
+  std::size_t sum = bytesOf(items_) + bytesOf(told_) + bytesOf(fat_) + bytesOf(indexOf_) +
+                    bytesOf(planes_) + bytesOf(moving_) + bytesOf(late_) + bytesOf(treeIndex_) +
+                    bytesOf(itemOfTree_) + bytesOf(ignored_) + bytesOf(fresh_) + bytesOf(parked_) +
+                    bytesOf(watches_) + bytesOf(findings_) + bytesOf(free_) + bytesOf(moved_) +
+                    bytesOf(movedTree_) + bytesOf(treeBounds_) + bytesOf(found_) + tree_.bytes();
   for (const Item& item : items_) sum += bytesOf(item.solid.edges);
   return sum;
 }
