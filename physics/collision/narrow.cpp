@@ -135,9 +135,9 @@ double touchOverlapping(const Solid& a, const Solid& b, const Relative& pose, Ax
 
 // Two cores with facets and edges. A facet or line is taken when one of its points is at the
 // distance that the directions promise; then no other can be nearer. Otherwise the nearest points
-// decide.
+// decide. `faceTried`: touchBoxFace() would not have the preferred one, if that is a facet.
 double touchCores(const Solid& a, const Solid& b, const Relative& pose, const Axes& axes,
-                  Contacts& contacts) {
+                  bool faceTried, Contacts& contacts) {
   const double radii = a.rounding + b.rounding;
   const Axis& largest = axes.largest();
   const double separation = largest.separation - radii;
@@ -145,6 +145,7 @@ double touchCores(const Solid& a, const Solid& b, const Relative& pose, const Ax
   const Axis& preferred = axes.preferred(tolerance);
   const bool exact = isExact(a, b);
   for (const Axis* axis : {&preferred, &largest}) {
+    if (faceTried && axis == &preferred && axis->from != Axis::From::lines) continue;
     touchAlong(a, b, pose, *axis, contacts);
     if (exact && largest.separation <= 0 && contacts.count > 0) return separation;
     if (!exact && largest.separation < -tolerance) continue;
@@ -207,7 +208,7 @@ double touch(const Solid& a, const Solid& b, const Relative& pose, double reach,
     out.normal = axes.largest().n;
     if (separation > reach) return separation;
     if (boxy && touchBoxFace(a, b, pose, axes, limits, out)) return separation;
-    distance = touchCores(a, b, pose, axes, contacts);
+    distance = touchCores(a, b, pose, axes, boxy, contacts);
   }
   out.normal = contacts.n;
   if (distance <= reach) finish(contacts, pose, limits, out);

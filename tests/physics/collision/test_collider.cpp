@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <numeric>
+#include <thread>
 
 #include "tests/physics/collision/scene_of_two.h"
 
@@ -113,6 +114,27 @@ TEST(Collider, IsNotChangedByBodiesElsewhere) {
     }
     ASSERT_EQ(ours.size(), expected.size());
     for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_TRUE(equal(ours[i], expected[i]));
+  }
+}
+
+TEST(Collider, FindsTheSameWhenPairsAreLookedAtInPartsOnTwoThreads) {
+  Pile whole = pyramid(8), parts = pyramid(8);
+  Random random(5);
+  for (int step = 0; step < 4; ++step) {
+    for (std::size_t i = 2; i < whole.poses.size(); ++i) {
+      whole.poses[i].x += 2e-3 * random.direction();
+      parts.poses[i] = whole.poses[i];
+    }
+    const auto expected = whole.find();
+    const std::size_t pairs = parts.collider.prepare(parts.poses, parts.poses, .02);
+    std::thread other([&] { parts.collider.lookAt(pairs / 2, pairs); });
+    parts.collider.lookAt(0, pairs / 3);
+    parts.collider.lookAt(pairs / 3, pairs / 2);
+    other.join();
+    const auto found = parts.collider.gather();
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(equal(found[i], expected[i]));
+    EXPECT_EQ(parts.collider.counts().narrowPhaseCalls, whole.collider.counts().narrowPhaseCalls);
   }
 }
 
