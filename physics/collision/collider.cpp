@@ -79,15 +79,12 @@ struct Collider::Impl {
     return {toB * a.R, toB * (a.x - b.x)};
   }
 
-  // What was found before is true of the pair still.
-  static bool stays(Watch& watch, const Finding& found, const Item& a, const Item& b, double reach,
-                    double margin) {
+  // By how far the two went, what was found before is true of the pair still.
+  static bool stays(Watch& watch, const Item& a, const Item& b, double reach, double margin) {
     const double travel = a.travel + b.travel - watch.travel;
     if (watch.count == 0 && watch.distance - travel > reach) return true;
     if (watch.count == 0 && staysApart(watch, a, b, margin)) return true;
-    const double still = kStill * smallerSize(a.solid, b.solid);
-    if (reach <= watch.reach && travel <= still) return true;
-    return holds(watch, found, a, b, relativePose(a, b), reach);
+    return reach <= watch.reach && travel <= kStill * smallerSize(a.solid, b.solid);
   }
 
   // Changes the watch and what belongs to it, and nothing else: pairs may be looked at side by
@@ -97,14 +94,16 @@ struct Collider::Impl {
     Finding& found = pairs.finding(watch);
     const double reach = step.margin + approach(a, b);
     watch.calls = 0;
-    watch.isNew = !watch.known || !stays(watch, found, a, b, reach, step.margin);
-    if (!watch.isNew) return;
-    watch.known = true;
+    watch.isNew = false;
+    if (watch.known && stays(watch, a, b, reach, step.margin)) return;
+    const Relative pose = relativePose(a, b);
+    if (watch.known && holds(watch, found, a, b, pose, reach)) return;
+    watch.isNew = watch.known = true;
     watch.travel = a.travel + b.travel;
     watch.reach = reach + kSpare * step.margin;
-    found.pose = relativePose(a, b);
+    found.pose = pose;
     const double near = b.isPlane || isShort(a, b, reach - step.margin) ? reach : step.margin;
-    watch.distance = touch(a.solid, b.solid, found.pose, near, watch.reach, found.manifold);
+    watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, found.manifold);
     watch.n = found.manifold.normal;
     ++watch.calls;
     const bool onTheWay = watch.distance > near && watch.distance <= reach &&
