@@ -51,9 +51,9 @@ struct Collider::Impl {
 
   // Nothing was found, and along the direction that told them apart they do not come near.
   static bool staysApart(Watch& watch, const Item& a, const Item& b, double near) {
-    const Vec3 n = b.R * watch.n;
+    const Vec3 normal = watch.normal(), n = b.R * normal;
     const double reachA = reachAlong(a.solid, a.R.transpose() * -n);
-    const double apart = n.dot(a.x - b.x) - reachA - reachAlong(b.solid, watch.n);
+    const double apart = n.dot(a.x - b.x) - reachA - reachAlong(b.solid, normal);
     if (apart <= near + approach(a, b, n)) return false;
     watch.distance = apart;
     watch.travel = a.travel + b.travel;
@@ -104,10 +104,10 @@ struct Collider::Impl {
     found.pose = pose;
     const double near = b.isPlane || isShort(a, b, reach - step.margin) ? reach : step.margin;
     watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, found.manifold);
-    watch.n = found.manifold.normal;
+    watch.setNormal(found.manifold.normal);
     ++watch.calls;
     const bool onTheWay = watch.distance > near && watch.distance <= reach &&
-                          watch.distance <= near + approach(a, b, b.R * watch.n);
+                          watch.distance <= near + approach(a, b, b.R * watch.normal());
     if (onTheWay) watch.calls += lookAlong(found.manifold, a, b);
     watch.count = static_cast<std::uint8_t>(found.manifold.count);
     watch.known = !onTheWay || watch.count == 0;

@@ -162,18 +162,21 @@ void Pairs::findNew() {
 
 // Those of fresh_ that are not watched yet take their places, from the back.
 void Pairs::mergeFresh() {
-  std::size_t old = 0;
+  const auto isBefore = [](const Watch& w, const std::pair<int, int>& p) { return w.items() < p; };
+  auto at = watches_.begin();
   std::erase_if(fresh_, [&](const std::pair<int, int>& pair) {
-    while (old < watches_.size() && watches_[old].items() < pair) ++old;
-    return old < watches_.size() && watches_[old].items() == pair;
+    at = std::lower_bound(at, watches_.end(), pair, isBefore);
+    return at != watches_.end() && at->items() == pair;
   });
-  old = watches_.size();
-  std::size_t to = old + fresh_.size();
-  watches_.resize(to);
+  std::ptrdiff_t old = std::ssize(watches_);
+  watches_.resize(watches_.size() + fresh_.size());
+  auto to = watches_.end();
   for (std::size_t k = fresh_.size(); k-- > 0;) {
-    const auto [p, q] = fresh_[k];
-    while (old > 0 && fresh_[k] < watches_[old - 1].items()) watches_[--to] = watches_[--old];
-    watches_[--to] = newWatch(p, q);
+    const auto end = watches_.begin() + old;
+    const auto behind = std::lower_bound(watches_.begin(), end, fresh_[k], isBefore);
+    to = std::move_backward(behind, end, to);
+    *--to = newWatch(fresh_[k].first, fresh_[k].second);
+    old = behind - watches_.begin();
   }
 }
 

@@ -1,8 +1,10 @@
 // The pairs of bodies near enough to be watched, found by fat bounds and kept in order.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -27,21 +29,25 @@ struct alignas(64) Item {
   Solid solid;
 };
 
-// Two items, and what is known of them since their last narrow phase.
+// Two items, and what is known of them since their last narrow phase. Plain numbers: watches are
+// moved as bytes when pairs come and go.
 struct Watch {
   int a = 0, b = 0;
   int finding = 0;         // what was found is kept there
   std::uint8_t count = 0;  // of the points found then
   bool known = false;
-  bool isNew = false;      // it was the last look
-  std::uint8_t calls = 0;  // narrow-phase evaluations of the last look
-  double travel = 0;       // of both items together, then
-  double distance = 0;     // then, or a lower bound
-  double reach = 0;        // how far was looked
-  Vec3 n = Vec3::UnitY();  // b's frame: without points, they are `distance` apart along it
+  bool isNew = false;         // it was the last look
+  std::uint8_t calls = 0;     // narrow-phase evaluations of the last look
+  double travel = 0;          // of both items together, then
+  double distance = 0;        // then, or a lower bound
+  double reach = 0;           // how far was looked
+  std::array<double, 3> n{};  // b's frame: without points, they are `distance` apart along it
 
+  Vec3 normal() const { return {n[0], n[1], n[2]}; }
+  void setNormal(const Vec3& normal) { n = {normal.x(), normal.y(), normal.z()}; }
   std::pair<int, int> items() const { return {a, b}; }
 };
+static_assert(std::is_trivially_copyable_v<Watch>);
 struct Finding {
   Relative pose;
   Manifold manifold;
