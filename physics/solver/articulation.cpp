@@ -82,6 +82,10 @@ void JointPacks::solveVelocities(const JointStage& stage) {
   forEach([&](auto& pack) { pack.solveVelocities(stage); });
 }
 
+void JointPacks::refineVelocities(const JointStage& stage) {
+  forEach([&](auto& pack) { pack.refineVelocities(stage); });
+}
+
 void JointPacks::finish(Kinds& kinds, double h) {
   forEach([&](auto& pack) { pack.finish(kinds, h); });
 }

@@ -76,6 +76,7 @@ class JointPack {
   void closePositions(const JointStage& stage);
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
+  void refineVelocities(const JointStage& stage);
   void finish(Kinds& kinds, double h);
 
  private:
@@ -88,6 +89,7 @@ class JointPack {
   void restorePoses(const JointStage& stage) const;
   void seeOthers(const JointStage& stage, bool all);
   void openAll();
+  void solveOpenVelocities(const JointStage& stage);
   void see(const JointStage& stage, bool all);
   void noteSeen();
   bool step(bool untilClosed);
@@ -112,10 +114,18 @@ class JointPack {
   Num<W> open_{};
   std::vector<char> used_;
   std::vector<int> usedBelow_, usedCounts_;
+  std::vector<Num<W>> tail_, tailWork_;  // A, and what it is solved with
+  std::vector<char> tailGives_;
+  std::vector<int> tailPlaces_;
+  int tailCount_ = 0;
+  bool tailFactored_ = false;
   std::array<bool, W> stale_{};  // the factor is of other free rows
   bool seenSince_ = true;        // J is not that of the factor any more
+  std::array<bool, W> exact_{};  // the factor is that of the velocity stage
   std::vector<JointFactor<W>> keptFactors_;
   std::vector<JointBlock<W>> keptBlocks_;
+  std::vector<Num<W>> keptTail_;
+  std::vector<JointBody<W>> keptBodies_;
 };
 
 // The articulations of a batch.
@@ -131,7 +141,8 @@ class JointPacks {
   // Evaluates at the end of the substep; then, as often as contacts are swept:
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
-  void finish(Kinds& kinds, double h);  // multipliers back to the kinds' sets
+  void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
+  void finish(Kinds& kinds, double h);             // multipliers back to the kinds' sets
 
  private:
   template <class F>

@@ -24,6 +24,7 @@ struct JointBody {
   Num<W> u[3], theta[3];          // what it moves by in this substep
   Num<W> seenU[3], seenTheta[3];  // and did where its rows were evaluated
   Num<W> inverseMass, inertia[6];
+  Num<W> factorTheta[3], factorVolume;  // of the factor: theta, and the determinant of `inertia`
 };
 
 // What factorizing leaves of a row: M^-1 J^T by bodies and rows, epsilon A, A_ii and the inverse of
@@ -73,12 +74,30 @@ struct JointMeeting {
   int count = 0, later[2] = {0, 0}, earlier[2] = {0, 0};
 };
 
+struct JointPair {  // of rows of the tail, by their places in it
+  int later = 0, earlier = 0;
+  JointMeeting meeting;
+};
+
+// Limits come last: they are solved for by what eliminating the other rows leaves of A, so that the
+// factor stays while it is found which of them are at a bound. Triangles are by rows, of all rows
+// of the tail; all but `a` is of those that are used, in the order of `places`.
+template <int W>
+struct JointTail {
+  Num<W>*a, *factor, *free, *held, *x;
+  char* gives;  // held since what is aimed at was eliminated
+  int *places, *count;
+  bool* isFactored;
+  const JointPair* pairs;
+  int pairCount;
+};
+
 template <int W>
 struct JointView {
   JointBody<W>* bodies;
   JointLanes<W>* rows;
   JointBlock<W>* blocks;
-  int bodyCount, rowCount;
+  int bodyCount, rowCount, tailStart;
   const JointShape* shapes;
   const JointColumn* columns;
   const JointBelow* below;
@@ -87,6 +106,7 @@ struct JointView {
   Num<W>* open;                 // by lane: 0 where positions are as good as they get
   char* used;                   // by row: free in any lane
   int *usedBelow, *usedCounts;  // places in a column of what is used, from the column's start
+  JointTail<W> tail;
 };
 
 template <int W>
@@ -97,14 +117,16 @@ struct JointKernels {
   // c, J and bounds of cones and twists: of all, where only the sign of c counts, or of those used.
   void (*seeLimits)(const System&, bool all);
   void (*chooseLimits)(const System&);  // free where lambda = 0 is no solution
-  bool (*holdLimits)(const System&,
-                     bool (&held)[W]);  // at their bounds; what they give up is given
   void (*factorize)(const System&);
+  void (*findChanged)(const System&, bool (&changed)[W]);  // too much for the factor to serve
+  void (*respond)(const System&);                          // M^-1 J^T alone
   void (*aimAtErrors)(const System&);      // right = -(c - left + J (u - seen) + alpha lambda)
   bool (*findOpen)(const System&);         // where what is aimed at is more than rounding
   void (*aimAtVelocities)(const System&);  // right = -J u
-  void (*substitute)(const System&);       // right <- A^-1 right
-  void (*apply)(const System&);            // lambda += right, u += M^-1 J^T right
+  // right <- A^-1 right; limits that would pass their bound are held there, to be so from `apply`
+  // on
+  void (*substitute)(const System&);
+  void (*apply)(const System&);  // lambda += right, u += M^-1 J^T right
 };
 
 template <int W>

@@ -9,6 +9,11 @@ namespace {
 // Keeps the factor regular where rows repeat each other (loops): relative to the row's own A.
 constexpr double kRedundancy = 1e-7;
 
+// A factor serves as long as no body has turned by more [rad] since, and its M^-1 was not smaller
+// by a larger share (in its determinant): what a solve leaves of an error is of that order, and
+// the next one takes the same share of it.
+constexpr double kKeptTurn = 0.1, kKeptMass = 0.2;
+
 // M^-1 J^T of the angular part, a column for each row of J.
 template <class N>
 void respond(const JointShape& shape, JointLanes<N::kWidth>& row, int b,
@@ -146,7 +151,7 @@ void buildDiagonal(const Of<N>& s, int i) {
   const N yields = load(row.regularisation) * mean;
   store(row.factor.yields, yields);
   const N extra = yields + wherePositive(mean, all<N>(kRedundancy) * mean, all<N>(1));
-  const N free = load(row.free);
+  const N free = i < s.tailStart ? load(row.free) : all<N>(1);
   for (int r = 0; r < R; ++r) {
     for (int c = 0; c <= r; ++c) {
       N entry = a[triangle(r, c)] + load(row.alpha[triangle(r, c)]);
@@ -169,7 +174,9 @@ void buildBlock(const Of<N>& s, int k, int i, int block) {
       couple<R, C>(s, k, meeting.later[m], i, meeting.earlier[m], sum);
     }
   }
-  const N free = wherePositive(load(s.rows[k].free), load(s.rows[i].free), all<N>(0));
+  // What the tail holds is left out where the tail is solved.
+  const N later = k < s.tailStart ? load(s.rows[k].free) : all<N>(1);
+  const N free = wherePositive(later, load(s.rows[i].free), all<N>(0));
   for (int e = 0; e < R * C; ++e) {
     store(s.blocks[block].entry[e], wherePositive(free, sum[e], all<N>(0)));
   }
@@ -247,24 +254,101 @@ void eliminate(const Of<N>& s, int i) {
         const int* target = s.updates + column.updates + used[u] * (used[u] + 1) / 2;
         for (int v = 0; v < u; ++v) {
           const JointBelow& p = below[used[v]];
+          if (p.to >= s.tailStart) {
+            auto& entry = s.tail.a[triangle(q.to - s.tailStart, p.to - s.tailStart)];
+            update<1, 1, kI, false, N>(&entry, block, s.blocks[p.block]);
+            continue;
+          }
           withSize(s.shapes[p.to].size, [&](auto wide) {
             update<kR, decltype(wide)::value, kI, false, N>(s.blocks[target[used[v]]].entry, block,
                                                             s.blocks[p.block]);
           });
         }
-        update<kR, kR, kI, true, N>(s.rows[q.to].factor.diagonal, block, block);
+        auto* diagonal = q.to < s.tailStart
+                             ? s.rows[q.to].factor.diagonal
+                             : &s.tail.a[triangle(q.to - s.tailStart, q.to - s.tailStart)];
+        update<kR, kR, kI, true, N>(diagonal, block, block);
       });
     }
   });
 }
 
+// A of the rows of the tail, where the others are not eliminated yet.
+template <class N>
+void buildTail(const Of<N>& s) {
+  const JointTail<N::kWidth>& tail = s.tail;
+  int count = 0;
+  for (int i = s.tailStart; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    const int place = i - s.tailStart;
+    for (int k = 0; k < count; ++k) {
+      store(tail.a[triangle(place, tail.places[k])], all<N>(0));
+    }
+    tail.places[count++] = place;
+    buildDiagonal<1, N>(s, i);
+    store(tail.a[triangle(place, place)], load(s.rows[i].factor.diagonal[0]));
+  }
+  *tail.count = count;
+  *tail.isFactored = false;
+  for (int k = 0; k < tail.pairCount; ++k) {
+    const JointPair& pair = tail.pairs[k];
+    const int later = s.tailStart + pair.later, earlier = s.tailStart + pair.earlier;
+    if (!s.used[later] || !s.used[earlier]) continue;
+    N sum = all<N>(0);
+    for (int m = 0; m < pair.meeting.count; ++m) {
+      const Triple<N> response = load3<N>(s.rows[earlier].factor.response[pair.meeting.earlier[m]]);
+      sum = sum + dot(load3<N>(s.rows[later].angular[pair.meeting.later[m]]), response);
+    }
+    store(tail.a[triangle(pair.later, pair.earlier)], sum);
+  }
+}
+
+template <class N>
+N volume(const JointBody<N::kWidth>& body) {
+  const N xx = load(body.inertia[0]), yy = load(body.inertia[1]), zz = load(body.inertia[2]);
+  const N xy = load(body.inertia[3]), xz = load(body.inertia[4]), yz = load(body.inertia[5]);
+  return xx * (yy * zz - yz * yz) - xy * (xy * zz - xz * yz) + xz * (xy * yz - xz * yy);
+}
+
+template <class N>
+void findChanged(const Of<N>& s, bool (&changed)[N::kWidth]) {
+  N most = all<N>(0);
+  for (int i = 0; i < s.bodyCount; ++i) {
+    const JointBody<N::kWidth>& body = s.bodies[i];
+    const Triple<N> turned = load3<N>(body.theta) - load3<N>(body.factorTheta);
+    const N before = load(body.factorVolume), more = volume<N>(body) - before;
+    most = larger(most, squaredNorm(turned) - all<N>(kKeptTurn * kKeptTurn));
+    most = larger(most, more - all<N>(kKeptMass) * before);
+  }
+  Num<N::kWidth> flags;
+  store(flags, most);
+  for (int l = 0; l < N::kWidth; ++l) changed[l] = flags.v[l] > 0;
+}
+
+template <class N>
+void respondAll(const Of<N>& s) {
+  for (int i = 0; i < s.rowCount; ++i) {
+    const JointShape& shape = s.shapes[i];
+    if (!s.used[i] || !shape.hasAngular) continue;
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (shape.moves[b]) respond<N>(shape, s.rows[i], b, s.bodies[shape.body[b]]);
+    }
+  }
+}
+
 template <class N>
 void factorize(const Of<N>& s) {
-  for (int i = 0; i < s.rowCount; ++i) {
+  for (int i = 0; i < s.bodyCount; ++i) {
+    JointBody<N::kWidth>& body = s.bodies[i];
+    store3(body.factorTheta, load3<N>(body.theta));
+    store(body.factorVolume, volume<N>(body));
+  }
+  for (int i = 0; i < s.tailStart; ++i) {
     if (!s.used[i]) continue;
     withSize(s.shapes[i].size, [&](auto size) { buildDiagonal<decltype(size)::value, N>(s, i); });
   }
-  for (int i = 0; i < s.rowCount; ++i) {
+  buildTail<N>(s);
+  for (int i = 0; i < s.tailStart; ++i) {
     if (!s.used[i]) continue;
     const JointColumn& column = s.columns[i];
     int count = 0;
@@ -280,7 +364,7 @@ void factorize(const Of<N>& s) {
     }
     s.usedCounts[i] = count;
   }
-  for (int i = 0; i < s.rowCount; ++i) {
+  for (int i = 0; i < s.tailStart; ++i) {
     if (s.used[i]) eliminate<N>(s, i);
   }
 }

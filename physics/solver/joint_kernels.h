@@ -3,6 +3,7 @@
 #include "physics/solver/joint_block.h"
 #include "physics/solver/joint_factor.h"
 #include "physics/solver/joint_limits.h"
+#include "physics/solver/joint_tail.h"
 
 namespace physics {
 namespace {
@@ -159,7 +160,7 @@ void aimAtVelocities(const Of<N>& s) {
 
 template <class N>
 void substitute(const Of<N>& s) {
-  for (int i = 0; i < s.rowCount; ++i) {
+  for (int i = 0; i < s.tailStart; ++i) {
     if (!s.used[i]) continue;
     const JointBelow* below = s.below + s.columns[i].start;
     const int* used = s.usedBelow + s.columns[i].start;
@@ -179,7 +180,8 @@ void substitute(const Of<N>& s) {
       }
     });
   }
-  for (int i = s.rowCount; i-- > 0;) {
+  solveTail<N>(s);
+  for (int i = s.tailStart; i-- > 0;) {
     if (!s.used[i]) continue;
     const JointBelow* below = s.below + s.columns[i].start;
     const int* used = s.usedBelow + s.columns[i].start;
@@ -229,13 +231,16 @@ void apply(const Of<N>& s) {
       store3(body.theta, theta);
     }
   }
+  for (int i = 0; i < *s.tail.count; ++i) {
+    store(s.rows[s.tailStart + s.tail.places[i]].free, load(s.tail.free[i]));
+  }
 }
 
 template <class N>
 constexpr JointKernels<N::kWidth> tableOf() {
-  return {place<N>,           seeGaps<N>,    seeLimits<N>,   chooseLimits<N>,
-          holdLimits<N>,      factorize<N>,  aimAtErrors<N>, findOpen<N>,
-          aimAtVelocities<N>, substitute<N>, apply<N>};
+  return {place<N>,     seeGaps<N>,         seeLimits<N>,  chooseLimits<N>,
+          factorize<N>, findChanged<N>,     respondAll<N>, aimAtErrors<N>,
+          findOpen<N>,  aimAtVelocities<N>, substitute<N>, apply<N>};
 }
 
 }  // namespace

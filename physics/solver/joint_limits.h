@@ -178,33 +178,5 @@ void chooseLimits(const Of<N>& s) {
   }
 }
 
-template <class N>
-bool holdLimits(const Of<N>& s, bool (&held)[N::kWidth]) {
-  bool any = false;
-  for (int k = 0; k < s.rowCount; ++k) {
-    if (!isLimit(s.shapes[k]) || !s.used[k]) continue;
-    auto& row = s.rows[k];
-    const N zero = all<N>(0), free = load(row.free), lambda = load(row.lambda[0]);
-    const N open = load(*s.open);
-    const N wanted = lambda + load(row.right[0]), inside = within<N>(row, wanted);
-    const N holds = wherePositive(open, wherePositive(free, differ(inside, wanted), zero), zero);
-    if (!anyPositive(holds)) continue;
-    any = true;
-    const N change = wherePositive(holds, inside - lambda, zero);
-    for (int b = 0; b < 2; ++b) {
-      if (!s.shapes[k].moves[b]) continue;
-      auto& body = s.bodies[s.shapes[k].body[b]];
-      store3(body.theta, load3<N>(body.theta) + load3<N>(row.factor.response[b]) * change);
-    }
-    store(row.lambda[0], wherePositive(holds, inside, lambda));
-    store(row.right[0], wherePositive(holds, zero, load(row.right[0])));
-    store(row.free, wherePositive(holds, zero, free));
-    Num<N::kWidth> flags;
-    store(flags, holds);
-    for (int l = 0; l < N::kWidth; ++l) held[l] = held[l] || flags.v[l] > 0;
-  }
-  return any;
-}
-
 }  // namespace
 }  // namespace physics

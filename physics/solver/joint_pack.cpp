@@ -31,6 +31,11 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     used_.resize(rows_.size());
     usedCounts_.resize(rows_.size());
     usedBelow_.resize(topology_->below.size());
+    const std::size_t tail = rows_.size() - topology_->tailStart;
+    tail_.resize(tail * (tail + 1) / 2);
+    tailWork_.resize(tail_.size() + 3 * tail);
+    tailGives_.resize(tail);
+    tailPlaces_.resize(tail);
   }
   takePulls();
   if (isSame) return;
@@ -65,11 +70,14 @@ void JointPack<W>::takePulls() {
 
 template <int W>
 JointView<W> JointPack<W>::view() {
+  const std::size_t triangle = tail_.size(), tail = tailPlaces_.size();
+  Num<W>* work = tailWork_.data();
   return {bodies_.data(),
           rows_.data(),
           blocks_.data(),
           static_cast<int>(bodies_.size()),
           static_cast<int>(rows_.size()),
+          topology_->tailStart,
           topology_->shapes.data(),
           topology_->columns.data(),
           topology_->below.data(),
@@ -78,7 +86,10 @@ JointView<W> JointPack<W>::view() {
           &open_,
           used_.data(),
           usedBelow_.data(),
-          usedCounts_.data()};
+          usedCounts_.data(),
+          {tail_.data(), work, work + triangle, work + triangle + tail, work + triangle + 2 * tail,
+           tailGives_.data(), tailPlaces_.data(), &tailCount_, &tailFactored_,
+           topology_->tail.data(), static_cast<int>(topology_->tail.size())}};
 }
 
 template <int W>
@@ -146,7 +157,7 @@ template <int W>
 void JointPack<W>::setFree(int i, int l, bool free) {
   if ((rows_[i].free.v[l] > 0) == free) return;
   rows_[i].free.v[l] = free ? 1 : 0;
-  stale_[l] = true;
+  stale_[l] = stale_[l] || i < topology_->tailStart;  // the tail leaves out what is held
 }
 
 template <int W>
@@ -243,6 +254,8 @@ void JointPack<W>::factorizeStale() {
   const std::array<bool, W> stale = stale_;
   keptFactors_.resize(rows_.size());
   keptBlocks_.resize(blocks_.size());
+  keptTail_ = tail_;
+  keptBodies_ = bodies_;
   const auto forEachUsed = [&](auto&& row, auto&& block) {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (!used_[i]) continue;
@@ -266,15 +279,18 @@ void JointPack<W>::factorizeStale() {
         restoreLanes<W>(from.inverse, stale, 6, to.inverse);
       },
       [&](int k) { restoreLanes<W>(keptBlocks_[k].scaled, stale, 9, blocks_[k].scaled); });
+  restoreLanes<W>(keptTail_.data(), stale, static_cast<int>(tail_.size()), tail_.data());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    restoreLanes<W>(keptBodies_[i].factorTheta, stale, 3, bodies_[i].factorTheta);
+    restoreLanes<W>(&keptBodies_[i].factorVolume, stale, 1, &bodies_[i].factorVolume);
+  }
 }
 
 // Rows that the solution would take past a bound are held there, and the others are to be solved
 // for again: what one row gives up, the rows around it have not counted on.
 template <int W>
 bool JointPack<W>::holdAtBounds() {
-  bool held[W] = {};
-  bool any = jointKernels<W>().holdLimits(view(), held);
-  for (int l = 0; l < W; ++l) stale_[l] = stale_[l] || held[l];
+  bool any = false;
   for (const int i : topology_->others) {
     if (!used_[i]) continue;
     JointLanes<W>& row = rows_[i];
@@ -371,31 +387,48 @@ void JointPack<W>::closePositions(const JointStage& stage) {
 
 template <int W>
 void JointPack<W>::prepareVelocities(const JointStage& stage) {
+  const JointKernels<W>& kernels = jointKernels<W>();
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const int i = static_cast<int>(k);
-    JointLanes<W>& row = rows_[i];
+    const JointLanes<W>& row = rows_[i];
     const JointShape& shape = topology_->shapes[i];
     const bool byKind = shape.seen == JointSeen::kByKind;
     for (int l = 0; l < W; ++l) {
       bool free = !givesWay(i, l);
       if (byKind) free = free && l < lanes_ && states_[i].active[l];
-      const bool bounded = byKind ? free && isBounded(rows_[i], l) : !shape.isGap;
-      row.free.v[l] = free && (!bounded || !read(row.lambda, l).isZero(0)) ? 1 : 0;
+      const bool bounded = byKind ? free && isBounded(row, l) : !shape.isGap;
+      setFree(i, l, free && (!bounded || !read(row.lambda, l).isZero(0)));
     }
   }
   gatherPoses<W>(ids_, stage.pose, bodies_);
   gatherMasses<W>(ids_, stage.masses, bodies_);
-  findUsed();
-  jointKernels<W>().seeGaps(view());
-  jointKernels<W>().seeLimits(view(), false);
+  kernels.seeGaps(view());
+  kernels.seeLimits(view(), false);
   seeOthers(stage, false);
-  factorize();
+  bool changed[W];
+  kernels.findChanged(view(), changed);
+  for (int l = 0; l < W; ++l) stale_[l] = stale_[l] || changed[l];
+  seenSince_ = true;
+  exact_ = stale_;
+  factorizeStale();
+  kernels.respond(view());
 }
 
 template <int W>
 void JointPack<W>::solveVelocities(const JointStage& stage) {
-  const JointKernels<W>& kernels = jointKernels<W>();
   openAll();
+  solveOpenVelocities(stage);
+}
+
+template <int W>
+void JointPack<W>::refineVelocities(const JointStage& stage) {
+  for (int l = 0; l < W; ++l) open_.v[l] = l < lanes_ && !exact_[l] ? 1 : 0;
+  if (std::any_of(open_.v, open_.v + W, [](double o) { return o > 0; })) solveOpenVelocities(stage);
+}
+
+template <int W>
+void JointPack<W>::solveOpenVelocities(const JointStage& stage) {
+  const JointKernels<W>& kernels = jointKernels<W>();
   gatherMotion<W>(ids_, stage.moved, bodies_);
   for (int round = 1;; ++round) {
     factorizeStale();

@@ -42,21 +42,38 @@ Meetings meetingsOf(const std::vector<JointShape>& shapes, int bodyCount) {
   return at;
 }
 
-std::vector<int> eliminationOrder(const Meetings& at, int rows) {
+bool isLimit(const JointShape& shape) {
+  return shape.seen == JointSeen::kCone || shape.seen == JointSeen::kTwist;
+}
+
+std::vector<int> eliminationOrder(const std::vector<JointShape>& shapes, const Meetings& at) {
+  std::vector<int> inner, place(shapes.size(), -1), limits;
+  for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
+    if (isLimit(shapes[i])) {
+      limits.push_back(i);
+      continue;
+    }
+    place[i] = static_cast<int>(inner.size());
+    inner.push_back(i);
+  }
+  const int rows = static_cast<int>(inner.size());
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < rows; ++i) entries.emplace_back(i, i, 1.0);
   for (const auto& list : at) {
     for (const auto& [i, bi] : list) {
       for (const auto& [j, bj] : list) {
-        if (i != j) entries.emplace_back(i, j, 1.0);
+        if (i != j && place[i] >= 0 && place[j] >= 0) entries.emplace_back(place[i], place[j], 1.0);
       }
     }
   }
   Eigen::SparseMatrix<double> pattern(rows, rows);
   pattern.setFromTriplets(entries.begin(), entries.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(pattern, order);
-  return {order.indices().data(), order.indices().data() + rows};
+  if (rows > 0) Eigen::AMDOrdering<int>()(pattern, order);
+  std::vector<int> result;
+  for (int k = 0; k < rows; ++k) result.push_back(inner[order.indices()[k]]);
+  result.insert(result.end(), limits.begin(), limits.end());
+  return result;
 }
 
 // Blocks below the diagonal as they are met, those of fill after those of rows that share a body.
@@ -70,14 +87,28 @@ struct Blocks {
   }
 };
 
+// The place of two rows of the tail in `t.tail`.
+JointMeeting& pairOf(JointTopology& t, int later, int earlier) {
+  for (JointPair& pair : t.tail) {
+    if (pair.later == later && pair.earlier == earlier) return pair.meeting;
+  }
+  t.tail.push_back({later, earlier, {}});
+  return t.tail.back().meeting;
+}
+
+JointMeeting& meetingOf(JointTopology& t, Blocks& blocks, int i, int j) {
+  if (j >= t.tailStart) return pairOf(t, i - t.tailStart, j - t.tailStart);
+  const std::size_t block = blocks.need(i, j);
+  if (block >= t.meetings.size()) t.meetings.resize(block + 1);
+  return t.meetings[block];
+}
+
 void couple(JointTopology& t, const Meetings& at, Blocks& blocks) {
   for (const auto& list : at) {
     for (const auto& [i, bi] : list) {
       for (const auto& [j, bj] : list) {
         if (i <= j) continue;
-        const std::size_t block = blocks.need(i, j);
-        if (block >= t.meetings.size()) t.meetings.resize(block + 1);
-        JointMeeting& meeting = t.meetings[block];
+        JointMeeting& meeting = meetingOf(t, blocks, i, j);
         meeting.later[meeting.count] = bi;
         meeting.earlier[meeting.count++] = bj;
       }
@@ -86,16 +117,16 @@ void couple(JointTopology& t, const Meetings& at, Blocks& blocks) {
 }
 
 void fill(JointTopology& t, Blocks& blocks) {
-  for (std::size_t i = 0; i < t.shapes.size(); ++i) {
+  for (int i = 0; i < t.tailStart; ++i) {
     std::vector<int>& below = blocks.below[i];
     std::sort(below.begin(), below.end());
     JointColumn column{static_cast<int>(t.below.size()), static_cast<int>(below.size()),
                        static_cast<int>(t.updates.size())};
-    const int earlier = static_cast<int>(i);
-    for (const int k : below) t.below.push_back({k, blocks.of.at({k, earlier})});
+    for (const int k : below) t.below.push_back({k, blocks.of.at({k, i})});
     for (std::size_t q = 0; q < below.size(); ++q) {
       for (std::size_t p = 0; p <= q; ++p) {
-        t.updates.push_back(p == q ? -1 : blocks.need(below[q], below[p]));
+        const bool isBlock = p != q && below[p] < t.tailStart;
+        t.updates.push_back(isBlock ? blocks.need(below[q], below[p]) : -1);
       }
     }
     t.columns.push_back(column);
@@ -133,12 +164,12 @@ std::shared_ptr<const JointTopology> topologyOf(std::span<const JointRef> refs,
   t->signature = signature;
   t->bodyCount = static_cast<int>(bodies.size());
   for (const BodyId body : bodies) t->moves.push_back(masses[body].m > 0);
-  const int n = static_cast<int>(refs.size());
-  t->order = eliminationOrder(meetingsOf(shapes, t->bodyCount), n);
+  t->order = eliminationOrder(shapes, meetingsOf(shapes, t->bodyCount));
   for (const int i : t->order) {
     if (shapes[i].seen == JointSeen::kByKind)
       t->others.push_back(static_cast<int>(t->shapes.size()));
     t->shapes.push_back(shapes[i]);
+    if (!isLimit(shapes[i])) t->tailStart = static_cast<int>(t->shapes.size());
   }
   Blocks blocks;
   blocks.below.resize(refs.size());

@@ -24,6 +24,8 @@ struct JointTopology {
   std::vector<JointBelow> below;
   std::vector<int> updates;
   std::vector<JointMeeting> meetings;  // by block
+  int tailStart = 0;                   // of the rows: limits, which come last
+  std::vector<JointPair> tail;         // those of them that share a body
 };
 
 using JointTopologies = std::vector<std::shared_ptr<const JointTopology>>;

@@ -241,7 +241,8 @@ void SmallSteps::Impl::solveVelocities(World::Impl& w, Batch& batch, double h) {
       if (!isMixed) continue;
       fromLanes(w, batch);
     } else if (batch.deformables.empty() && batch.softRows.empty()) {
-      break;  // joints alone are solved already
+      batch.joints.refineVelocities(stage);
+      break;  // joints alone are solved
     }
     turnTo("direct");
     sweepSoft(batch);

@@ -51,6 +51,11 @@ struct Memory {
   std::vector<char> used = std::vector<char>(rows.size(), 1);
   std::vector<int> usedBelow = std::vector<int>(topology->below.size()),
                    usedCounts{used.begin(), used.end()};
+  std::vector<Num<W>> tail{10}, factor{10}, scratch{12};
+  std::vector<char> gives{0, 0, 0, 0};
+  std::vector<int> places{0, 0, 0, 0};
+  int tailCount = 0;
+  bool isFactored = false;
 
   JointView<W> view() {
     return {bodies.data(),
@@ -58,6 +63,7 @@ struct Memory {
             blocks.data(),
             3,
             static_cast<int>(rows.size()),
+            topology->tailStart,
             topology->shapes.data(),
             topology->columns.data(),
             topology->below.data(),
@@ -66,7 +72,10 @@ struct Memory {
             &open,
             used.data(),
             usedBelow.data(),
-            usedCounts.data()};
+            usedCounts.data(),
+            {tail.data(), factor.data(), &scratch[0], &scratch[4], &scratch[8], gives.data(),
+             places.data(), &tailCount, &isFactored, topology->tail.data(),
+             static_cast<int>(topology->tail.size())}};
   }
   // Lane l is a pose, a motion and limits of its own.
   void fill(int l, unsigned seed) {
@@ -94,15 +103,17 @@ struct Memory {
     kernels.seeGaps(s);
     kernels.seeLimits(s, true);
     kernels.chooseLimits(s);
-    bool held[W] = {};
-    for (int round = 0; round < 3; ++round) {
-      kernels.factorize(s);
-      kernels.aimAtErrors(s);
-      kernels.substitute(s);
-      if (!kernels.holdLimits(s, held)) break;
-    }
+    kernels.factorize(s);
+    kernels.aimAtErrors(s);
+    kernels.substitute(s);
     kernels.apply(s);
     kernels.seeLimits(s, false);
+    bool changed[W];
+    kernels.findChanged(s, changed);
+    kernels.respond(s);
+    kernels.aimAtVelocities(s);
+    kernels.substitute(s);
+    kernels.apply(s);
     kernels.factorize(s);
     kernels.aimAtVelocities(s);
     kernels.substitute(s);
