@@ -11,15 +11,6 @@ constexpr double kInside = -1;  // an error of what is within its bounds, where 
 constexpr double kHalfTurn = 3.14159265358979323846;
 
 template <class N>
-bool anyPositive(N test) {
-  Num<N::kWidth> flags;
-  store(flags, wherePositive(test, all<N>(1), all<N>(0)));
-  bool any = false;
-  for (int l = 0; l < N::kWidth; ++l) any = any || flags.v[l] > 0;
-  return any;
-}
-
-template <class N>
 Triple<N> turned(const Num<N::kWidth>* q, const Triple<N>& v) {
   const Triple<N> axis = load3<N>(q + 1), half = cross(axis, v), t = half + half;
   return v + t * load(q[0]) + cross(axis, t);

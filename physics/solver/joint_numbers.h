@@ -21,6 +21,7 @@ inline One larger(One a, One b) { return {a.v > b.v ? a.v : b.v}; }
 inline One smaller(One a, One b) { return {a.v < b.v ? a.v : b.v}; }
 inline One root(One a) { return {__builtin_sqrt(a.v)}; }
 inline One wherePositive(One test, One a, One b) { return test.v > 0 ? a : b; }
+inline bool anyPositive(One test) { return test.v > 0; }
 inline void put(double a, One& to) { to.v = a; }
 inline One load(const Num<1>& p) { return {p.v[0]}; }
 inline void store(Num<1>& p, One a) { p.v[0] = a.v; }
@@ -40,6 +41,9 @@ inline Four smaller(Four a, Four b) { return {_mm256_min_pd(a.v, b.v)}; }
 inline Four root(Four a) { return {_mm256_sqrt_pd(a.v)}; }
 inline Four wherePositive(Four test, Four a, Four b) {
   return {_mm256_blendv_pd(b.v, a.v, _mm256_cmp_pd(test.v, _mm256_setzero_pd(), _CMP_GT_OQ))};
+}
+inline bool anyPositive(Four test) {
+  return _mm256_movemask_pd(_mm256_cmp_pd(test.v, _mm256_setzero_pd(), _CMP_GT_OQ)) != 0;
 }
 inline void put(double a, Four& to) { to.v = _mm256_set1_pd(a); }
 inline Four load(const Num<4>& p) { return {_mm256_load_pd(p.v)}; }
@@ -76,6 +80,11 @@ inline __m128d chosen(__m128d test, __m128d a, __m128d b) {
 }
 inline Four wherePositive(Four test, Four a, Four b) {
   return {chosen(test.low, a.low, b.low), chosen(test.high, a.high, b.high)};
+}
+inline bool anyPositive(Four test) {
+  const __m128d zero = _mm_setzero_pd();
+  return (_mm_movemask_pd(_mm_cmpgt_pd(test.low, zero)) |
+          _mm_movemask_pd(_mm_cmpgt_pd(test.high, zero))) != 0;
 }
 inline void put(double a, Four& to) { to.low = to.high = _mm_set1_pd(a); }
 inline Four load(const Num<4>& p) { return {_mm_load_pd(p.v), _mm_load_pd(p.v + 2)}; }

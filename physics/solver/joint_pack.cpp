@@ -403,7 +403,6 @@ void JointPack<W>::prepareVelocities(const JointStage& stage) {
   gatherPoses<W>(ids_, stage.pose, bodies_);
   gatherMasses<W>(ids_, stage.masses, bodies_);
   kernels.seeGaps(view());
-  kernels.seeLimits(view(), false);
   seeOthers(stage, false);
   bool changed[W];
   kernels.findChanged(view(), changed);
