@@ -291,7 +291,7 @@ void JointPack<W>::factorizeStale() {
 template <int W>
 bool JointPack<W>::holdAtBounds() {
   bool any = false;
-  for (const int i : topology_->others) {
+  for (const int i : topology_->bounded) {
     if (!used_[i]) continue;
     JointLanes<W>& row = rows_[i];
     for (int l = 0; l < lanes_; ++l) {
@@ -403,10 +403,12 @@ void JointPack<W>::prepareVelocities(const JointStage& stage) {
   gatherPoses<W>(ids_, stage.pose, bodies_);
   gatherMasses<W>(ids_, stage.masses, bodies_);
   kernels.seeGaps(view());
+  kernels.seeLimits(view(), false);
   seeOthers(stage, false);
   bool changed[W];
   kernels.findChanged(view(), changed);
-  for (int l = 0; l < W; ++l) stale_[l] = stale_[l] || changed[l];
+  // Where rows repeat each other, what they share is another thing after the smallest turn.
+  for (int l = 0; l < W; ++l) stale_[l] = stale_[l] || changed[l] || !topology_->isTree;
   seenSince_ = true;
   exact_ = stale_;
   factorizeStale();

@@ -4,10 +4,17 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <set>
 
 namespace physics {
 namespace {
+
+// How much more work a factor may be with the limits last: with them among the other rows figures
+// that lie in a heap were factored 3.8 times a substep, and once with them last.
+constexpr double kTailWork = 4;
 
 // Rows at a body that moves, and the body's place in each.
 using Meetings = std::vector<std::vector<std::pair<int, int>>>;
@@ -46,19 +53,16 @@ bool isLimit(const JointShape& shape) {
   return shape.seen == JointSeen::kCone || shape.seen == JointSeen::kTwist;
 }
 
-std::vector<int> eliminationOrder(const std::vector<JointShape>& shapes, const Meetings& at) {
-  std::vector<int> inner, place(shapes.size(), -1), limits;
-  for (int i = 0; i < static_cast<int>(shapes.size()); ++i) {
-    if (isLimit(shapes[i])) {
-      limits.push_back(i);
-      continue;
-    }
-    place[i] = static_cast<int>(inner.size());
-    inner.push_back(i);
-  }
-  const int rows = static_cast<int>(inner.size());
+// A minimum-degree order of these rows.
+std::vector<int> orderOf(const std::vector<int>& rows, std::size_t count, const Meetings& at) {
+  if (rows.empty()) return {};
+  std::vector<int> place(count, -1), result;
+  const int size = static_cast<int>(rows.size());
   std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < rows; ++i) entries.emplace_back(i, i, 1.0);
+  for (int k = 0; k < size; ++k) {
+    place[rows[k]] = k;
+    entries.emplace_back(k, k, 1.0);
+  }
   for (const auto& list : at) {
     for (const auto& [i, bi] : list) {
       for (const auto& [j, bj] : list) {
@@ -66,14 +70,56 @@ std::vector<int> eliminationOrder(const std::vector<JointShape>& shapes, const M
       }
     }
   }
-  Eigen::SparseMatrix<double> pattern(rows, rows);
+  Eigen::SparseMatrix<double> pattern(size, size);
   pattern.setFromTriplets(entries.begin(), entries.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  if (rows > 0) Eigen::AMDOrdering<int>()(pattern, order);
-  std::vector<int> result;
-  for (int k = 0; k < rows; ++k) result.push_back(inner[order.indices()[k]]);
-  result.insert(result.end(), limits.begin(), limits.end());
+  Eigen::AMDOrdering<int>()(pattern, order);
+  for (int k = 0; k < size; ++k) result.push_back(rows[order.indices()[k]]);
   return result;
+}
+
+// What factorizing in this order multiplies; more than `most` is not counted to its end.
+double workOf(const std::vector<int>& order, const std::vector<JointShape>& shapes,
+              const Meetings& at, double most) {
+  std::vector<int> place(shapes.size());
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<int>(k);
+  std::vector<std::set<int>> below(order.size());
+  for (const auto& list : at) {
+    for (const auto& [i, bi] : list) {
+      for (const auto& [j, bj] : list) {
+        if (place[i] > place[j]) below[place[j]].insert(place[i]);
+      }
+    }
+  }
+  double work = 0;
+  for (std::size_t k = 0; k < order.size() && work <= most; ++k) {
+    double height = shapes[order[k]].size;
+    for (const int later : below[k]) height += shapes[order[later]].size;
+    work += shapes[order[k]].size * height * height;
+    if (below[k].empty()) continue;
+    const int parent = *below[k].begin();
+    below[parent].insert(std::next(below[k].begin()), below[k].end());
+  }
+  return work;
+}
+
+struct Order {
+  std::vector<int> rows;
+  int tailStart = 0;
+};
+
+// Limits last, where a factor is not much more work for that: it is one that no round repeats.
+Order eliminationOrder(const std::vector<JointShape>& shapes, const Meetings& at) {
+  std::vector<int> all(shapes.size()), inner, limits;
+  std::iota(all.begin(), all.end(), 0);
+  for (const int i : all) (isLimit(shapes[i]) ? limits : inner).push_back(i);
+  Order together{orderOf(all, shapes.size(), at), static_cast<int>(shapes.size())};
+  if (limits.empty()) return together;
+  Order last{orderOf(inner, shapes.size(), at), static_cast<int>(inner.size())};
+  last.rows.insert(last.rows.end(), limits.begin(), limits.end());
+  const double most =
+      kTailWork * workOf(together.rows, shapes, at, std::numeric_limits<double>::infinity());
+  return workOf(last.rows, shapes, at, most) <= most ? last : together;
 }
 
 // Blocks below the diagonal as they are met, those of fill after those of rows that share a body.
@@ -146,6 +192,30 @@ std::vector<int> signatureOf(std::span<const JointRef> refs,
   return signature;
 }
 
+// A row says what others say only in a loop, the world being one body, or where one pair has rows
+// for all of its freedoms.
+bool isTreeOf(const std::vector<JointShape>& shapes, int bodyCount) {
+  constexpr int kFreedoms = 6;
+  std::map<std::pair<int, int>, int> rows;
+  for (const JointShape& shape : shapes) {
+    int ends[2] = {bodyCount, bodyCount};
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (shape.moves[b]) ends[b] = shape.body[b];
+    }
+    rows[std::minmax(ends[0], ends[1])] += shape.rows;
+  }
+  std::vector<int> root(bodyCount + 1);
+  std::iota(root.begin(), root.end(), 0);
+  for (const auto& [pair, count] : rows) {
+    int a = pair.first, b = pair.second;
+    while (root[a] != a) a = root[a];
+    while (root[b] != b) b = root[b];
+    if (a == b || count >= kFreedoms) return false;
+    root[a] = b;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::shared_ptr<const JointTopology> topologyOf(std::span<const JointRef> refs,
@@ -164,12 +234,15 @@ std::shared_ptr<const JointTopology> topologyOf(std::span<const JointRef> refs,
   t->signature = signature;
   t->bodyCount = static_cast<int>(bodies.size());
   for (const BodyId body : bodies) t->moves.push_back(masses[body].m > 0);
-  t->order = eliminationOrder(shapes, meetingsOf(shapes, t->bodyCount));
+  Order order = eliminationOrder(shapes, meetingsOf(shapes, t->bodyCount));
+  t->order = std::move(order.rows);
+  t->isTree = isTreeOf(shapes, t->bodyCount);
+  t->tailStart = order.tailStart;
   for (const int i : t->order) {
-    if (shapes[i].seen == JointSeen::kByKind)
-      t->others.push_back(static_cast<int>(t->shapes.size()));
+    const int place = static_cast<int>(t->shapes.size());
+    if (shapes[i].seen == JointSeen::kByKind) t->others.push_back(place);
+    if (shapes[i].seen != JointSeen::kGap && place < t->tailStart) t->bounded.push_back(place);
     t->shapes.push_back(shapes[i]);
-    if (!isLimit(shapes[i])) t->tailStart = static_cast<int>(t->shapes.size());
   }
   Blocks blocks;
   blocks.below.resize(refs.size());

@@ -17,13 +17,15 @@ struct JointTopology {
   std::vector<int> signature;  // rows, their kinds and bodies: equal where topologies are
   std::vector<int> order;      // of elimination: which of the rows as they were given
   int bodyCount = 0;
-  std::vector<bool> moves;  // by body
-  std::vector<int> others;  // rows that the kernels do not evaluate
+  std::vector<bool> moves;   // by body
+  std::vector<int> others;   // rows that the kernels do not evaluate
+  std::vector<int> bounded;  // rows that may have bounds, but for those of the tail
   std::vector<JointShape> shapes;
   std::vector<JointColumn> columns;
   std::vector<JointBelow> below;
   std::vector<int> updates;
   std::vector<JointMeeting> meetings;  // by block
+  bool isTree = false;                 // no two rows can say the same
   int tailStart = 0;                   // of the rows: limits, which come last
   std::vector<JointPair> tail;         // those of them that share a body
 };
