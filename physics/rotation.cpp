@@ -130,4 +130,11 @@ AngleBetween angleBetween(const Vec3& ni, const Vec3& nj) {
   return result;
 }
 
+Quat fromUp(const Vec3& direction) {
+  const Vec3 d = direction.normalized();
+  if (d.y() < -1 + 1e-12) return Quat(0, 1, 0, 0);  // down: any half turn serves
+  const Vec3 axis = Vec3::UnitY().cross(d);
+  return Quat(1 + d.y(), axis.x(), axis.y(), axis.z()).normalized();
+}
+
 }  // namespace physics

@@ -47,4 +47,7 @@ struct AngleBetween {
 };
 AngleBetween angleBetween(const Vec3& ni, const Vec3& nj);
 
+// The rotation that takes y to `direction`, by the shortest way.
+Quat fromUp(const Vec3& direction);
+
 }  // namespace physics

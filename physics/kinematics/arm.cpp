@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "physics/kinematics/arm_joint.h"
-#include "physics/make/matter.h"
 #include "physics/rotation.h"
 
 namespace physics {

@@ -1,7 +1,6 @@
 // Arms that move bodies.
 #include "physics/kinematics/driven_arm.h"
 
-#include "physics/make/matter.h"
 #include "physics/rotation.h"
 
 namespace physics {

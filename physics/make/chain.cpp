@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/make/hinge.h"
+#include "physics/rotation.h"
 
 namespace physics {
 namespace {

@@ -53,7 +53,4 @@ class Random {
   std::uint64_t state_;
 };
 
-// The rotation that takes y to `direction`, by the shortest way.
-Quat fromUp(const Vec3& direction);
-
 }  // namespace physics
