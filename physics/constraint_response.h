@@ -7,10 +7,11 @@
 
 namespace physics {
 
-template <class C>
-Eigen::Matrix<double, C::kRows, C::kRows> resistance(const C& item, const Evaluated<C>& row,
-                                                     std::span<const InverseMass> inverse,
-                                                     Response<C>& response) {
+// A = J M^-1 J^T, and M^-1 J^T in `response`. massOf(body) is any struct of the inverse mass and the
+// inverse inertia in the world.
+template <class C, class F>
+Eigen::Matrix<double, C::kRows, C::kRows> respond(const C& item, const Evaluated<C>& row,
+                                                  Response<C>& response, F&& massOf) {
   Eigen::Matrix<double, C::kRows, C::kRows> a;
   a.setZero();
   if constexpr (C::kBodies == kMany) {
@@ -18,17 +19,25 @@ Eigen::Matrix<double, C::kRows, C::kRows> resistance(const C& item, const Evalua
     response.angular.resize(item.bodies.size());
   }
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const InverseMass& mass = inverse[item.bodies[b]];
+    const auto& [inverse, inertia] = massOf(item.bodies[b]);
     if constexpr (C::kLinear) {
-      response.linear[b] = mass.m * row.linear[b].transpose();
+      response.linear[b] = inverse * row.linear[b].transpose();
       a.noalias() += row.linear[b].lazyProduct(response.linear[b]);
     }
     if constexpr (isAngular<C>()) {
-      response.angular[b].noalias() = mass.inertia.lazyProduct(row.angular[b].transpose());
+      response.angular[b].noalias() = inertia.lazyProduct(row.angular[b].transpose());
       a.noalias() += row.angular[b].lazyProduct(response.angular[b]);
     }
   }
   return a;
+}
+
+template <class C>
+Eigen::Matrix<double, C::kRows, C::kRows> resistance(const C& item, const Evaluated<C>& row,
+                                                     std::span<const InverseMass> inverse,
+                                                     Response<C>& response) {
+  const auto massOf = [&](BodyId body) -> const InverseMass& { return inverse[body]; };
+  return respond(item, row, response, massOf);
 }
 
 // Displaces one body by the change `delta` of a multiplier.

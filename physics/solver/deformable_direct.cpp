@@ -12,11 +12,6 @@ namespace {
 constexpr int kMostSteps = 20;   // of Newton's; two to four are enough, but where a rope is caught
 constexpr int kMostRounds = 30;  // of finding which rows are at a bound
 
-template <class C>
-bool isBounded(const SweptRow<C>& swept) {
-  return swept.low > -kUnbounded || swept.high < kUnbounded || swept.row.longest < kUnbounded;
-}
-
 // What a row that may be held is off by, at what the bodies have moved by.
 template <class C>
 typename Set<C>::Vector rowError(const C& item, const SweptRow<C>& swept, bool positions,

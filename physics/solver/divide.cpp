@@ -5,6 +5,7 @@
 #include "physics/solver/small_steps_impl.h"
 
 namespace physics {
+
 void SmallSteps::clear(Batch& batch) {
   batch.bodies.clear();
   batch.contacts.clear();

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/constraint_response.h"
 #include "physics/kinds.h"
 #include "physics/probe.h"
 #include "physics/solver/articulation.h"
@@ -73,24 +74,8 @@ void give(const C& item, const SweptRow<C>& swept, const typename Set<C>::Vector
 template <class C>
 typename SweptRow<C>::Matrix respond(const C& item, SweptRow<C>& swept,
                                      std::span<const JointMass> masses) {
-  typename SweptRow<C>::Matrix a = SweptRow<C>::Matrix::Zero();
-  if constexpr (C::kBodies == kMany) {
-    swept.response.linear.resize(item.bodies.size());
-    swept.response.angular.resize(item.bodies.size());
-  }
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const JointMass& mass = masses[item.bodies[b]];
-    if constexpr (C::kLinear) {
-      swept.response.linear[b] = mass.inverse * swept.row.linear[b].transpose();
-      a.noalias() += swept.row.linear[b].lazyProduct(swept.response.linear[b]);
-    }
-    if constexpr (isAngular<C>()) {
-      swept.response.angular[b].noalias() =
-          mass.inertia.lazyProduct(swept.row.angular[b].transpose());
-      a.noalias() += swept.row.angular[b].lazyProduct(swept.response.angular[b]);
-    }
-  }
-  return a;
+  const auto massOf = [&](BodyId body) -> const JointMass& { return masses[body]; };
+  return physics::respond(item, swept.row, swept.response, massOf);
 }
 
 // alpha and c of what was evaluated.
@@ -148,12 +133,15 @@ bool givesWay(const SweptRow<C>& swept) {
   return Force<C> || !swept.alpha.isZero(0);
 }
 
+template <class C>
+bool isBounded(const SweptRow<C>& swept) {
+  return swept.low > -kUnbounded || swept.high < kUnbounded || swept.row.longest < kUnbounded;
+}
+
 // It has a bound, and did not have to hold anything.
 template <class C>
 bool isSlack(const SweptRow<C>& swept) {
-  const bool isBounded =
-      swept.low > -kUnbounded || swept.high < kUnbounded || swept.row.longest < kUnbounded;
-  return isBounded && swept.lambda.isZero(0);
+  return isBounded(swept) && swept.lambda.isZero(0);
 }
 
 // f(item, swept, regularisation) of every row.
