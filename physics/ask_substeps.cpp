@@ -31,7 +31,7 @@ void look(const C& item, World::Impl& w, Scratch<C>& s, Need& need) {
     const double square = (s.row.k * a).trace();  // >= (w h)^2, K and A are not negative
     if (square > 0) need.least = std::max(need.least, n * std::sqrt(square) / kResolved);
   } else if constexpr (canStand<C>()) {
-    need.error = std::max(need.error, sizeOfError(item, w));
+    need.error = std::max(need.error, sizeOfError(item, w.bodies, w.substepLength()));
   }
 }
 

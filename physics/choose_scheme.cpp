@@ -16,7 +16,7 @@ void findIslands(World::Impl& w) {
   Islands& island = w.stepper.island;
   const Islands& joined = jointIslands(w);
   for (const BodyId i : w.bodies.active) island[i] = joined[i];
-  joinPushed(w, island);
+  joinPushed(w.contacts, w.bodies, island);
   for (const SoftContact& c : w.softContacts) {
     if (c.normalTotal == 0) continue;
     join(w.bodies, island, c.from, c.to);

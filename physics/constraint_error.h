@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/world_impl.h"
+#include "physics/constraint.h"
 
 namespace physics {
 
 // |c|, or the violated side of a bound, in the unit of the kind's rows.
 template <class C>
-double sizeOfError(const C& item, const World::Impl& w) {
-  if constexpr (requires { item.relativeError(w.bodies.pose); }) {
-    return item.relativeError(w.bodies.pose);
+double sizeOfError(const C& item, const Bodies& bodies, double dt) {
+  if constexpr (requires { item.relativeError(bodies.pose); }) {
+    return item.relativeError(bodies.pose);
   }
   Row<C::kBodies, C::kRows> row;
-  item.evaluate({w.bodies.pose, w.bodies.start, w.substepLength()}, row);
+  item.evaluate({bodies.pose, bodies.start, dt}, row);
   const double size = row.c.norm();
   if (std::isfinite(row.high) && row.high <= 0) return std::max(row.c[0], 0.0);  // c <= 0 holds
   if (std::isfinite(row.low) && row.low >= 0) return std::max(-row.c[0], 0.0);   // c >= 0 holds

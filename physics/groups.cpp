@@ -6,6 +6,7 @@
 
 #include "physics/constraint_response.h"
 #include "physics/effects/second_order.h"
+#include "physics/effects/sleep.h"
 #include "physics/presence.h"
 #include "physics/world_impl.h"
 
@@ -39,7 +40,7 @@ void lookAhead(World::Impl& w) {
 void findAll(World::Impl& w) {
   w.local.groups.clear();
   while (w.touches && !findContacts(w, w.ahead)) {
-    for (const auto& [here, there] : w.met) callAwake(w, there);
+    for (const auto& [here, there] : w.met) callAwake(w.sleep, there);
     w.met.clear();
     wakeCalled(w);
     keepStart(w);
@@ -158,7 +159,7 @@ void takeGroups(World::Impl& w) {
   makeRoom(w);
   if (w.local.full) return w.local.groups.clear();
   lookAhead(w);
-  notePresence(w);
+  w.takeActiveMask();
   std::vector<Group> old;
   old.swap(w.local.groups);
   findAll(w);
@@ -166,18 +167,18 @@ void takeGroups(World::Impl& w) {
   numberIslands(w);
   share(w);
   keepLayouts(old, w.local.groups);
-  for (const BodyId i : w.bodies.active) w.present[i] = kLeftOut;
+  for (const BodyId i : w.bodies.active) w.activeMask[i] = kInactive;
 }
 
 void enter(World::Impl& w, Group& group) {
   exchange(w, group);
   w.substeps = group.substeps;
-  for (const BodyId i : w.bodies.active) w.present[i] = kPresent;
+  for (const BodyId i : w.bodies.active) w.activeMask[i] = kActive;
 }
 
 void leave(World::Impl& w, Group& group) {
   for (const BodyId i : w.bodies.active) {
-    w.present[i] = kLeftOut;
+    w.activeMask[i] = kInactive;
     w.ahead[i] = w.bodies.pose[i];  // where the groups after this one find it
   }
   exchange(w, group);

@@ -3,10 +3,6 @@
 #include "physics/islands.h"
 
 #include <algorithm>
-#include <numeric>
-
-#include "physics/constraint_response.h"
-#include "physics/world_impl.h"
 
 namespace physics {
 namespace {
@@ -26,28 +22,16 @@ void join(const Bodies& bodies, Islands& islands, BodyId a, BodyId b) {
   islands[std::max(i, j)] = std::min(i, j);
 }
 
-const Islands& jointIslands(World::Impl& w) {
-  Islands& joined = w.joined;
-  if (!joined.empty()) return joined;
-  joined.resize(w.bodies.pose.size());
-  std::iota(joined.begin(), joined.end(), 0);
-  forEachKind(w.kinds, [&](const auto& kind) {
-    for (const auto& item : kind.set.items) {
-      const BodyId mover = moverOf(item, w.bodies);
-      for (const BodyId body : item.bodies) join(w.bodies, joined, mover, body);
-    }
-  });
-  for (BodyId i = 0; i < w.bodies.size(); ++i) joined[i] = rootOf(joined, i);
-  return joined;
-}
-
-void joinPushed(const World::Impl& w, Islands& islands) {
-  forEachPush(w.contacts,
-              [&](const ContactPair& pair) { join(w.bodies, islands, pair.a, pair.b); });
+void joinPushed(const Contacts& contacts, const Bodies& bodies, Islands& islands) {
+  forEachPush(contacts, [&](const ContactPair& pair) { join(bodies, islands, pair.a, pair.b); });
 }
 
 void settle(Islands& islands, std::span<const BodyId> bodies) {
   for (const BodyId i : bodies) islands[i] = rootOf(islands, i);
+}
+
+void settleAll(Islands& islands) {
+  for (BodyId i = 0; i < static_cast<BodyId>(islands.size()); ++i) islands[i] = rootOf(islands, i);
 }
 
 }  // namespace physics

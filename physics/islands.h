@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/world.h"
+#include "physics/constraints/contact.h"
 
 namespace physics {
 
@@ -14,15 +14,13 @@ using Islands = std::vector<BodyId>;
 
 bool isMovable(const Bodies& bodies, BodyId body);
 
-// By constraints alone; worked out once.
-const Islands& jointIslands(World::Impl& world);
-
 void join(const Bodies& bodies, Islands& islands, BodyId a, BodyId b);
 
 // Joins those that a contact has moved in this substep.
-void joinPushed(const World::Impl& world, Islands& islands);
+void joinPushed(const Contacts& contacts, const Bodies& bodies, Islands& islands);
 
-// After the joins: every entry of `bodies` is its island's first body.
+// After the joins: every entry of `bodies` is its island's first body; or of all.
 void settle(Islands& islands, std::span<const BodyId> bodies);
+void settleAll(Islands& islands);
 
 }  // namespace physics

@@ -6,17 +6,9 @@
 
 #include "physics/choose_scheme.h"
 #include "physics/effects/second_order.h"
-#include "physics/methods/nonlinear_gauss_seidel.h"
 
 namespace physics {
 namespace {
-
-bool isFinite(const World::Impl& w, BodyId i) {
-  const Pose& pose = w.bodies.pose[i];
-  const Velocity& velocity = w.bodies.velocity[i];
-  return std::isfinite(pose.x.sum() + pose.q.coeffs().sum() + velocity.v.sum() + velocity.w.sum() +
-                       w.loads[i].force.sum() + w.loads[i].torque.sum());
-}
 
 // Keeps the hardest push on one body; nothing is harder than one that is not finite.
 struct Hardest {
@@ -40,7 +32,10 @@ double pushOf(const ContactPair& pair) {
   return sum;
 }
 
+}  // namespace
+
 void nameHardest(const World::Impl& w, StepReport& report) {
+  if (!report.notFinite || !report.notFinite->constraint.empty()) return;
   Hardest hardest{report.notFinite->body};
   const auto name = [&](const char* kind, std::size_t k) {
     nameCulprit(report, kind, k, hardest.body);
@@ -67,21 +62,10 @@ void nameHardest(const World::Impl& w, StepReport& report) {
   }
 }
 
-}  // namespace
-
-void checkFinite(const World::Impl& w, StepReport& report) {
-  const auto check = [&](BodyId i) {
-    if (!report.notFinite && !isFinite(w, i)) report.notFinite = {report.substeps, i, ""};
-  };
-  for (const BodyId i : w.bodies.active) check(i);
-  for (const BodyId i : w.loaded) check(i);
-  for (const auto& [body, velocity] : w.last.replaced) check(body);
-}
-
 void checkSolved(const World::Impl& w, StepReport& report) {
   if (report.notFinite) return;
   checkFinite(w, report);
-  if (report.notFinite) nameHardest(w, report);
+  nameHardest(w, report);
 }
 
 void restore(World::Impl& w) {

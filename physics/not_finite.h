@@ -1,15 +1,15 @@
 // Who is named where numbers stop being finite, and the way back to the last good state.
 #pragma once
 
+#include "physics/model/finite.h"
 #include "physics/world_impl.h"
 
 namespace physics {
 
-// Names the first body whose pose, velocity or load is not finite, one that moves before any other.
-void checkFinite(const World::Impl& w, StepReport& report);
+// Names the constraint or contact that pushes hardest the body that is named, where none is yet.
+void nameHardest(const World::Impl& w, StepReport& report);
 
-// The same after a solve that named nobody, with the constraint or contact of that body that pushes
-// hardest.
+// After a solve: names the first body with a number that is not finite, and what pushes it.
 void checkSolved(const World::Impl& w, StepReport& report);
 
 // Every pose and velocity back to the start of the step, and to what they were before a velocity

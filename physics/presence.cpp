@@ -1,6 +1,7 @@
-// What a step leaves out, and what it does when it meets it.
+// What a step skips, and what it does when it meets it.
 #include "physics/presence.h"
 
+#include "physics/effects/sleep.h"
 #include "physics/probe.h"
 #include "physics/world_impl.h"
 
@@ -14,16 +15,16 @@ void placeAll(World::Impl& w, std::span<const Pose> start, std::span<const Pose>
   w.local.start.assign(start.begin(), start.end());
   w.local.end.assign(target.begin(), target.end());
   for (BodyId i = kWorldBody + 1; i < w.bodies.size(); ++i) {
-    if (w.present[i] != kLeftOut) continue;
+    if (w.activeMask[i] != kInactive) continue;
     w.local.start[i] = w.last.pose[i];
     w.local.end[i] = w.ahead[i];
   }
 }
 
 bool notePair(World::Impl& w, BodyId a, BodyId b) {
-  if (w.present[a] == kPresent && w.present[b] == kLeftOut) w.met.push_back({a, b});
-  if (w.present[b] == kPresent && w.present[a] == kLeftOut) w.met.push_back({b, a});
-  return w.present[a] == kPresent || w.present[b] == kPresent;
+  if (w.activeMask[a] == kActive && w.activeMask[b] == kInactive) w.met.push_back({a, b});
+  if (w.activeMask[b] == kActive && w.activeMask[a] == kInactive) w.met.push_back({b, a});
+  return w.activeMask[a] == kActive || w.activeMask[b] == kActive;
 }
 
 std::span<const Manifold> ownOf(World::Impl& w, std::span<const Manifold> found) {
@@ -36,7 +37,7 @@ std::span<const Manifold> ownOf(World::Impl& w, std::span<const Manifold> found)
 
 }  // namespace
 
-bool leavesOut(const World::Impl& w) { return w.sleep.count > 0 || isApart(w); }
+bool skipsInactive(const World::Impl& w) { return w.sleep.count > 0 || isApart(w); }
 
 // Bodies::start is where backward Euler would have started.
 std::span<const Pose> poseAtStart(const World::Impl& w) {
@@ -52,7 +53,7 @@ bool findContacts(World::Impl& w, std::span<const Pose> target) {
     target = w.local.end;
   }
   std::span<const Manifold> found = w.collider.find(start, target, margin);
-  if (leavesOut(w)) found = ownOf(w, found);
+  if (skipsInactive(w)) found = ownOf(w, found);
   if (!w.met.empty()) return false;
   update(w.contacts, found, w.bodies);
   turnTo("");
@@ -64,23 +65,15 @@ bool findSoftContacts(World::Impl& w) {
   if (!w.settings.contact || w.softCollider.empty()) return true;
   turnTo("soft_contact");
   const double margin = w.settings.contact->margin;
-  const bool leaves = leavesOut(w);
-  const std::span<const char> leftOut = leaves ? w.present : std::span<const char>{};
-  const auto touches = w.softCollider.find(poseAtStart(w), w.bodies.pose, margin, leftOut);
+  const bool skips = skipsInactive(w);
+  const std::span<const char> inactive = skips ? w.activeMask : std::span<const char>{};
+  const auto touches = w.softCollider.find(poseAtStart(w), w.bodies.pose, margin, inactive);
   for (const SoftTouch& touch : touches) {
-    if (leaves) notePair(w, w.softCollider.element(touch.element).from, touch.body);
+    if (skips) notePair(w, w.softCollider.element(touch.element).from, touch.body);
   }
   if (!w.met.empty()) return false;
   startSoftContacts(touches, w.softCollider, w.bodies, w.softContacts);
   return true;
-}
-
-void notePresence(World::Impl& w) {
-  w.present.assign(w.bodies.pose.size(), kLeftOut);
-  for (BodyId i = 0; i < w.bodies.size(); ++i) {
-    if (!isMovable(w.bodies, i)) w.present[i] = kFixed;
-  }
-  for (const BodyId i : w.bodies.active) w.present[i] = kPresent;
 }
 
 void keepStart(World::Impl& w) {
@@ -116,7 +109,7 @@ bool includeMet(World::Impl& w, StepReport& report) {
   if (w.met.empty()) return false;
   takeBack(w);
   for (const auto& [here, there] : w.met) {
-    callAwake(w, there);
+    callAwake(w.sleep, there);
     if (stepsLocally(w.settings)) w.local.joins.push_back({here, there});
   }
   w.met.clear();

@@ -1,16 +1,12 @@
-// A step that leaves bodies out, because they sleep or take another number of substeps: it tells
-// where it meets one of them after all, and is then made anew with it.
+// A step that skips inactive bodies, because they sleep or take another number of substeps: it
+// tells where it meets one of them after all, and is then made anew with it.
 #pragma once
 
 #include <span>
 
-#include "physics/collision/collider.h"
-#include "physics/world.h"
+#include "physics/world_impl.h"
 
 namespace physics {
-
-// By body, World::Impl::present.
-enum Presence : char { kPresent, kFixed, kLeftOut };
 
 // Looks for contacts from the start of the substep to `target`, and keeps those of what now steps.
 // False: something else is met.
@@ -20,11 +16,8 @@ bool findSoftContacts(World::Impl& world);
 // X^t of the present substep.
 std::span<const Pose> poseAtStart(const World::Impl& world);
 
-// Takes over who is awake.
-void notePresence(World::Impl& world);
-
 // Some body that could move does not step now.
-bool leavesOut(const World::Impl& world);
+bool skipsInactive(const World::Impl& world);
 
 // Keeps what a step changes, and takes it back; only where something is left out.
 void keepStart(World::Impl& world);

@@ -1,197 +1,17 @@
-// The step: Algorithm 1 of "Displacement Based Dynamics", with the corrections listed in paper.md.
-// Numbers in brackets are the paper's equations.
+// The step of "Displacement Based Dynamics", with the corrections listed in paper.md. Numbers in
+// brackets are the paper's equations. A substep of the default method is solver/small_steps.h,
+// Algorithm 1 of the paper stepping/substep.cpp.
 #include "physics/world.h"
 
-#include "physics/choose_scheme.h"
-#include "physics/effects/energy_bound.h"
-#include "physics/effects/restitution.h"
-#include "physics/effects/second_order.h"
-#include "physics/methods/direct.h"
-#include "physics/methods/nonlinear_gauss_seidel.h"
-#include "physics/methods/rival.h"
+#include "physics/effects/sleep.h"
+#include "physics/groups.h"
 #include "physics/not_finite.h"
 #include "physics/presence.h"
 #include "physics/probe.h"
+#include "physics/stepping/substep.h"
 
 namespace physics {
 namespace {
-
-constexpr int kMostLooks = 4;  // how often contacts are looked for anew within one substep
-
-bool contactsOutdated(const World::Impl& w) {
-  return w.touches && w.collider.outdated(poseAtStart(w), w.bodies.pose, w.bodies.active);
-}
-
-// Where the bodies would be at the end of the whole step, so that one look serves all its substeps.
-bool findContactsAhead(World::Impl& w, double remaining) {
-  for (const BodyId i : w.bodies.active) {
-    w.ahead[i] = w.bodies.pose[i];
-    displace(w.ahead[i], remaining * w.bodies.velocity[i].v, remaining * w.bodies.velocity[i].w);
-  }
-  return findContacts(w, w.ahead);
-}
-
-// At the start of a substep, whose number is k. Local substeps have looked for the whole step.
-bool lookForContacts(World::Impl& w, int k, double h) {
-  const bool isNew = k == 0 && w.local.groups.empty();
-  if (w.touches && (isNew || contactsOutdated(w))) {
-    if (!findContactsAhead(w, w.settings.dt - (k + 1) * h)) return false;
-  }
-  return findSoftContacts(w);
-}
-
-void solveOnce(World::Impl& w, double h, StepReport& report) {
-  switch (w.settings.method) {
-    case Method::kNonlinearGaussSeidel:
-    case Method::kSmallSteps:  // where it does not take what the world has
-      return nonlinearGaussSeidel(w, h, report);
-    case Method::kDirect:
-      return direct(w, h, report);
-    case Method::kLinearGaussSeidel:
-      return linearGaussSeidel(w, h, report);
-    default:
-      return;  // a rival has a substep of its own
-  }
-}
-
-// Contacts that pushed and may not be found again.
-void keepLost(Contacts& contacts) {
-  for (const ContactPair& pair : contacts.pairs) {
-    if (!pair.given.isZero(0)) contacts.lost.push_back(pair);
-  }
-}
-
-void solveConstraints(World::Impl& w, double h, StepReport& report) {
-  solveOnce(w, h, report);
-  // A body that was hit may have left the bounds in which contacts were looked for: look where it
-  // went.
-  for (int look = 1; look < kMostLooks && !report.notFinite && contactsOutdated(w); ++look) {
-    keepLost(w.contacts);
-    if (!findContacts(w, w.bodies.pose)) return;
-    for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
-    solveOnce(w, h, report);
-  }
-}
-
-// False: the step ends here.
-bool goesOn(const World::Impl& w, const StepReport& report) {
-  return !report.notFinite && w.met.empty();
-}
-
-// From X^t, v^t to the displaced poses, by the schemes as they stand.
-void displaceAll(World::Impl& w, int k, double h, StepReport& report) {
-  turnTo("motion");
-  w.contacts.lost.clear();
-  if (isSecondOrder(w.settings)) {
-    moveFreelySecondOrder(w.bodies, w.loads, w.settings.gravity, h);
-  } else {
-    moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)
-  }
-  turnTo("inertia");
-  refreshInverseMasses(w, h);
-  turnTo("");
-  checkFinite(w, report);
-  if (report.notFinite || !lookForContacts(w, k, h)) return;
-  if (w.settings.method == Method::kDirect) {
-    turnTo("direct");
-    prepareDirect(w);
-  }
-  prepareConstraints(w, h);        // multipliers of the last substep, gaps and anchors at X^t
-  solveConstraints(w, h, report);  // Delta X (52),(53)
-}
-
-bool lowersSchemes(World::Impl& w, double h) {
-  turnTo("schemes");
-  return lowerSchemes(w, h);
-}
-
-// A scheme that the solve does not bear out is lowered and the substep made anew; the third time
-// everything steps by the paper's.
-void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
-  turnTo("schemes");
-  w.contactsBefore = w.contacts.pairs;
-  chooseSchemes(w);
-  displaceAll(w, k, h, report);
-  for (int again = 0; again < 3 && goesOn(w, report) && lowersSchemes(w, h); ++again) {
-    turnTo("schemes");
-    if (again == 2) stepByPaper(w);
-    rewind(w.bodies);
-    w.contacts.pairs = w.contactsBefore;
-    displaceAll(w, k, h, report);
-  }
-}
-
-void finish(World::Impl& w, double h, StepReport& report) {
-  turnTo("");
-  const double restitution = w.touches ? w.settings.contact->restitution : 0;
-  if (restitution > 0) w.velocityBefore = w.bodies.velocity;
-  if (isSecondOrder(w.settings)) {
-    turnTo("schemes");
-    finishSecondOrder(w.bodies, w.loads, w.settings.gravity);
-    projectVelocities(w);
-  } else {
-    finishVelocities(w.bodies, h);  // (43)-(46)
-    report.bounded += boundEnergy(w, h);
-  }
-  std::vector<bool> jumped;
-  if (restitution > 0) {
-    turnTo("restitution");
-    jumped = restitute(w.contacts, w.bodies, restitution, w.flight(h));
-  }
-  if (isSecondOrder(w.settings)) {
-    turnTo("schemes");
-    recordSchemes(w, jumped, report);
-  }
-  turnTo("");
-}
-
-void countSubstep(const World::Impl& w, StepReport& report) {
-  ++report.substeps;
-  report.work.moves += static_cast<std::int64_t>(w.bodies.active.size());
-  report.work.turns += w.turning;
-  report.work.gyroscopic += static_cast<std::int64_t>(
-      w.settings.leavesOut ? w.bodies.anisotropic.size() : static_cast<std::size_t>(w.turning));
-}
-
-void countLooks(const Collider::Counts& before, const Collider::Counts& after, StepReport& report) {
-  report.work.broadPhase = after.broadPhaseCalls - before.broadPhaseCalls;
-  report.work.narrowPhase = after.narrowPhaseCalls - before.narrowPhaseCalls;
-}
-
-// A whole substep of a rival, from contacts found as for the other methods.
-void substepOfRival(World::Impl& w, int k, double h, StepReport& report) {
-  turnTo("motion");
-  coast(w, h);
-  checkFinite(w, report);
-  if (report.notFinite) return;
-  lookForContacts(w, k, h);
-  turnTo("rival");
-  rivalSubstep(w, h, report);
-  turnTo("");
-  checkSolved(w, report);
-  countSubstep(w, report);
-}
-
-void substep(World::Impl& w, int k, double h, StepReport& report) {
-  w.substep = k;
-  const bool isStatic = w.settings.stepping == Stepping::kStatic;
-  if (isStatic) bringToRest(w.bodies);
-  if (isRival(w.settings.method)) return substepOfRival(w, k, h, report);
-  noteKineticEnergy(w);
-  isSecondOrder(w.settings) ? displaceBySchemes(w, k, h, report) : displaceAll(w, k, h, report);
-  if (!goesOn(w, report)) return;
-  finish(w, h, report);
-  checkSolved(w, report);
-  if (isStatic) bringToRest(w.bodies);
-  countSubstep(w, report);
-}
-
-// What steps together, from the present state to the end of the step.
-void substeps(World::Impl& w, StepReport& report) {
-  report.substeps = 0;
-  const double h = w.substepLength();
-  for (int k = 0; k < w.substeps && goesOn(w, report); ++k) substep(w, k, h, report);
-}
 
 void begin(World::Impl& w, StepReport& report) {
   if (w.settings.contact) w.takeShapes();
@@ -200,7 +20,8 @@ void begin(World::Impl& w, StepReport& report) {
     w.last.pose[i] = w.bodies.pose[i];
     w.last.velocity[i] = w.bodies.velocity[i];
   }
-  checkFinite(w, report);  // what was set since the last step
+  checkFinite(w, report);
+  for (const auto& [body, velocity] : w.last.replaced) checkFinite(w, body, report);
   turnTo("arm");
   drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
   turnTo("");
@@ -223,19 +44,21 @@ void end(World::Impl& w, StepReport& report) {
   w.stepCount += report.notFinite ? 0 : 1;
 }
 
-}  // namespace
+void countLooks(const Collider::Counts& before, const Collider::Counts& after, StepReport& report) {
+  report.work.broadPhase = after.broadPhaseCalls - before.broadPhaseCalls;
+  report.work.narrowPhase = after.narrowPhaseCalls - before.narrowPhaseCalls;
+}
 
-StepReport World::step() {
-  Impl& w = *impl_;
-  const Collider::Counts before = w.collider.counts();
-  StepReport report;
-  begin(w, report);
-  if (!report.notFinite && takesSmallSteps(w)) {
-    w.small.step(w, report);
-    end(w, report);
-    countLooks(before, w.collider.counts(), report);
-    return report;
-  }
+// The default method.
+void smallSteps(World::Impl& w, StepReport& report) {
+  w.small.step(
+      w, [&w] { wakeCalled(w); }, report);
+  nameHardest(w, report);
+}
+
+// The paper's methods and the rivals: all that is awake at once, or one group of islands after the
+// other; anew where a group met what did not step with it.
+void sweepSteps(World::Impl& w, StepReport& report) {
   do {
     turnTo("local_substeps");
     takeGroups(w);
@@ -248,6 +71,16 @@ StepReport World::step() {
     }
     leaveGroups(w);
   } while (includeMet(w, report));
+}
+
+}  // namespace
+
+StepReport World::step() {
+  Impl& w = *impl_;
+  const Collider::Counts before = w.collider.counts();
+  StepReport report;
+  begin(w, report);
+  if (!report.notFinite) takesSmallSteps(w) ? smallSteps(w, report) : sweepSteps(w, report);
   end(w, report);
   countLooks(before, w.collider.counts(), report);
   return report;

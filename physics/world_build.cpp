@@ -130,23 +130,6 @@ void World::add(const SoftSurfaceDef& def) {
   for (const auto& [from, to] : def.links) add(from, to);
 }
 
-void World::Impl::takeShapes() {
-  if (hasShapes) return;
-  hasShapes = true;
-  for (BodyId body = kWorldBody + 1; body < bodies.size(); ++body) {
-    const bool isMovable = bodies.motion[body] == Motion::kDynamic;
-    if (!bodies.isSoft[body]) collider.add(body, bodies.shape[body], isMovable);
-    softCollider.addBody(body, bodies.shape[body]);
-  }
-  touches = collider.canTouch() || (!settings.leavesOut && collider.hasShapes());
-  if (!touches) return collider.forgetShapes();
-  std::vector<BodyId> still;
-  for (BodyId body = kWorldBody + 1; body < bodies.size(); ++body) {
-    if (bodies.motion[body] == Motion::kStatic) still.push_back(body);
-  }
-  collider.rest(still, bodies.pose);
-}
-
 void World::ignoreCollision(BodyId a, BodyId b) { impl_->ignore(a, b); }
 
 }  // namespace physics

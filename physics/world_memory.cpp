@@ -76,12 +76,12 @@ std::vector<EffectMemory> World::memory() const {
   };
   add("gyroscopic", bytesOf(w.bodies.anisotropic));
   add("contact", w.collider.bytes() + bytesOf(w.contacts) + w.softCollider.bytes() +
-                     bytesOf(w.softContacts) + w.conjugate.bytes() + w.small.bytes() + bytesOf(w.attached) +
-                     bytesOf(w.kineticBefore));
+                     bytesOf(w.softContacts) + w.conjugate.bytes() + w.small.bytes() +
+                     bytesOf(w.attached) + bytesOf(w.kineticBefore));
   add("restitution", bytesOf(w.velocityBefore));
   add("stepping", bytesOf(w.bodies.second) + bytesOf(w.stepper) + bytesOf(w.contactsBefore));
   add("direct", bytesOf(w.jointRows) + bytesOf(w.jointChange) + bytesOf(w.jointMotion));
-  add("sleep", bytesOf(w.sleep) + bytesOf(w.present) + bytesOf(w.own));
+  add("sleep", bytesOf(w.sleep) + bytesOf(w.activeMask) + bytesOf(w.own));
   add("local_substeps", bytesOf(w.local));
   return memory;
 }

@@ -22,14 +22,14 @@ JointReport reportOf(const C& item, const World::Impl& w) {
   if constexpr (requires { item.axes; }) joint.axis = a.q * item.axes[0];
   if constexpr (requires { item.axes; }) joint.axisB = b.q * item.axes[1];
   if constexpr (requires { item.frameJ; }) joint.axisB = b.q * item.frameJ.col(2);
-  if constexpr (canStand<C>()) joint.error = sizeOfError(item, w);
+  if constexpr (canStand<C>()) joint.error = sizeOfError(item, w.bodies, w.substepLength());
   return joint;
 }
 
 // A rope's pieces one by one; the error is that of the whole.
 template <class K, class C>
 void addPieces(const C& item, const World::Impl& w, std::vector<JointReport>& reports) {
-  const double error = sizeOfError(item, w);
+  const double error = sizeOfError(item, w.bodies, w.substepLength());
   for (std::size_t i = 0; i + 1 < item.bodies.size(); ++i) {
     JointReport piece;
     piece.kind = K::kWord;
@@ -66,7 +66,7 @@ void World::setThreads(int count) { impl_->workers.setCount(count); }
 
 void World::setVelocity(BodyId body, const Velocity& velocity) {
   require(body > 0 && body < bodyCount(), "no such body");
-  callAwake(*impl_, body);
+  callAwake(impl_->sleep, body);
   Velocity& now = impl_->bodies.velocity[body];
   auto& replaced = impl_->last.replaced;
   if (velocity.v.allFinite() && velocity.w.allFinite()) {
@@ -80,7 +80,7 @@ void World::setVelocity(BodyId body, const Velocity& velocity) {
 
 void World::applyForce(BodyId body, const Vec3& force, const Vec3& torque) {
   require(body > 0 && body < bodyCount(), "no such body");
-  callAwake(*impl_, body);
+  callAwake(impl_->sleep, body);
   impl_->loaded.push_back(body);
   impl_->loads[body].force += force;
   impl_->loads[body].torque += torque;
@@ -93,7 +93,7 @@ void World::setDriveTarget(int drive, const Quat& target) {
           "a drive's target must be a finite quaternion, not zero");
   const Quat next = target.normalized();
   if (next.coeffs() == items[drive].target.coeffs()) return;
-  for (const BodyId body : items[drive].bodies) callAwake(*impl_, body);
+  for (const BodyId body : items[drive].bodies) callAwake(impl_->sleep, body);
   items[drive].target = next;
 }
 
@@ -118,7 +118,7 @@ std::vector<KindError> World::constraintErrors() const {
       if (kind.set.items.empty()) return;
       KindError error{K::kWord, K::Item::kUnit, 0, 0, static_cast<int>(kind.set.items.size()), 0};
       for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
-        const double size = sizeOfError(kind.set.items[k], *impl_);
+        const double size = sizeOfError(kind.set.items[k], impl_->bodies, impl_->substepLength());
         error.sum += size;
         if (!(size <= error.largest)) error.largest = size, error.worst = static_cast<int>(k);
       }

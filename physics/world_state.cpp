@@ -3,6 +3,7 @@
 
 #include "physics/constraint_item.h"
 #include "physics/effects/second_order.h"
+#include "physics/effects/sleep.h"
 #include "physics/state.h"
 #include "physics/world_impl.h"
 
@@ -37,7 +38,7 @@ void takeStaticPoses(World::Impl& w) {
 }
 
 void wakeAll(World::Impl& w) {
-  for (BodyId i = kWorldBody + 1; i < w.bodies.size(); ++i) callAwake(w, i);
+  for (BodyId i = kWorldBody + 1; i < w.bodies.size(); ++i) callAwake(w.sleep, i);
   wakeCalled(w);
 }
 
@@ -61,24 +62,6 @@ void findContactsHere(World::Impl& w) {
 }
 
 }  // namespace
-
-const std::vector<bool>& World::Impl::findAttached() {
-  if (!attached.empty()) return attached;
-  attached.assign(bodies.pose.size(), false);
-  forEachKind(kinds, [&](const auto& kind) {
-    for (const auto& item : kind.set.items) {
-      for (const BodyId body : item.bodies) attached[body] = true;
-    }
-  });
-  attached[kWorldBody] = false;
-  return attached;
-}
-
-FreeFlight World::Impl::flight(double dt) {
-  FreeFlight flight{settings.gravity, loads, velocityBefore, findAttached(), dt};
-  for (const SoftContact& contact : softContacts) flight.attached[contact.body] = true;
-  return flight;
-}
 
 BodyId firstNotFinite(std::span<const Pose> poses, std::span<const Velocity> velocities) {
   for (std::size_t i = 0; i < poses.size(); ++i) {

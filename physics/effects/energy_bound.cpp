@@ -71,7 +71,7 @@ bool mayGain(const World::Impl& w, double h) {
 // What joints and this substep's contacts join.
 Islands findIslands(World::Impl& w) {
   Islands islands = jointIslands(w);
-  joinPushed(w, islands);
+  joinPushed(w.contacts, w.bodies, islands);
   settle(islands, w.bodies.active);
   return islands;
 }

@@ -9,7 +9,7 @@
 // small gains are left as well, for bodies that settle on each other.
 #pragma once
 
-#include "physics/world.h"
+#include "physics/world_impl.h"
 
 namespace physics {
 

@@ -8,7 +8,6 @@
 #include "physics/effects/second_order.h"
 #include "physics/islands.h"
 #include "physics/methods/rival.h"
-#include "physics/presence.h"
 #include "physics/world_impl.h"
 
 namespace physics {
@@ -119,7 +118,7 @@ void listAwake(World::Impl& w) {
   w.joints = JointSystem{};
   w.local.groups.clear();
   w.local.full = false;
-  notePresence(w);
+  w.takeActiveMask();
 }
 
 void makeRoom(Sleep& sleep, std::size_t bodies) {
@@ -160,11 +159,6 @@ void fallAsleep(World::Impl& w, StepReport& report) {
     }
   }
   report.asleep = w.sleep.count;
-}
-
-void callAwake(World::Impl& w, BodyId body) {
-  if (w.sleep.count > 0 && w.sleep.asleep[body]) w.sleep.called.push_back(body);
-  if (!w.sleep.still.empty()) w.sleep.still[body] = 0;
 }
 
 void wakeCalled(World::Impl& w) {

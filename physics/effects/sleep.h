@@ -7,22 +7,9 @@
 // What it changes: a body that would go on slower than `speed` stands still.
 #pragma once
 
-#include <span>
-#include <vector>
-
-#include "physics/constraints/contact.h"
-#include "physics/world.h"
+#include "physics/world_impl.h"
 
 namespace physics {
-
-struct Sleep {
-  std::vector<int> still;             // by body: steps in a row that it was slow
-  std::vector<char> asleep;           // by body
-  std::vector<BodyId> island;         // by body: the first of the island that it fell asleep with
-  std::vector<BodyId> called;         // to be woken before the next step
-  std::vector<ContactPair> contacts;  // of bodies that sleep; sorted
-  int count = 0;                      // of those that sleep
-};
 
 // True where the World's bodies may fall asleep: rivals and the linear method never rest.
 bool sleeps(const Settings& settings);
@@ -30,8 +17,7 @@ bool sleeps(const Settings& settings);
 // After a step.
 void fallAsleep(World::Impl& world, StepReport& report);
 
-// Its island steps again, from the next step on.
-void callAwake(World::Impl& world, BodyId body);
+// Islands of bodies that callAwake() named step again, from now on.
 void wakeCalled(World::Impl& world);
 
 }  // namespace physics

@@ -144,10 +144,6 @@ bool onlyContacts(const World::Impl& world) {
   return only;
 }
 
-void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body) {
-  report.notFinite = {report.substeps, body, std::string(kind) + " " + std::to_string(index)};
-}
-
 void refreshInverseMasses(World::Impl& world, double dt) {
   world.settings.spinInertia ? refreshSpinInertia(world.bodies, dt) : refreshInertia(world.bodies);
 }

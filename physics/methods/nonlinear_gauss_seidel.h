@@ -4,15 +4,13 @@
 
 #include <functional>
 
+#include "physics/model/finite.h"
 #include "physics/world_impl.h"
 
 namespace physics {
 
 // Nothing that steps is joined or pushed by a constraint or a force.
 bool onlyContacts(const World::Impl& world);
-
-// Tells which constraint gave a number that is not finite.
-void nameCulprit(StepReport& report, const char* kind, std::size_t index, BodyId body);
 
 // Inverse inertia at the present poses: of M, or of M~ where the World asks for it.
 void refreshInverseMasses(World::Impl& world, double dt);

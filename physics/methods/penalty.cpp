@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "physics/methods/penalty_springs.h"
-#include "physics/not_finite.h"
 
 namespace physics {
 namespace {

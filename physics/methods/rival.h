@@ -2,8 +2,8 @@
 // X^{t+1}, v^{t+1}. The studies compare them with this project's methods on the same scenes.
 #pragma once
 
-#include "physics/methods/nonlinear_gauss_seidel.h"
 #include "physics/methods/touch.h"
+#include "physics/model/finite.h"
 #include "physics/world_impl.h"
 
 namespace physics {

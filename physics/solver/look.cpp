@@ -1,7 +1,6 @@
 // The contacts of a step, and which islands look for them twice.
 #include <algorithm>
 
-#include "physics/presence.h"
 #include "physics/solver/small_steps_impl.h"
 
 namespace physics {
@@ -24,10 +23,10 @@ bool SmallSteps::Impl::lookOnce(World::Impl& w) {
   if (w.sleep.count > 0) {
     const std::size_t called = w.sleep.called.size();
     for (const Manifold& m : found) {
-      for (const BodyId i : {m.a, m.b}) callAwake(w, i);
+      for (const BodyId i : {m.a, m.b}) callAwake(w.sleep, i);
     }
     if (w.sleep.called.size() > called) {
-      wakeCalled(w);
+      (*wake)();
       return false;
     }
   }
@@ -41,8 +40,8 @@ bool SmallSteps::Impl::lookSoft(World::Impl& w) {
   softPairs.clear();
   if (!w.settings.contact || w.softCollider.empty()) return true;
   const bool some = w.sleep.count > 0;
-  if (some) notePresence(w);
-  const auto leftOut = some ? std::span<const char>(w.present) : std::span<const char>{};
+  if (some) w.takeActiveMask();
+  const auto leftOut = some ? std::span<const char>(w.activeMask) : std::span<const char>{};
   const std::size_t called = w.sleep.called.size();
   for (const SoftTouch& touch :
        w.softCollider.find(w.bodies.pose, w.ahead, w.settings.contact->margin, leftOut)) {
@@ -50,10 +49,10 @@ bool SmallSteps::Impl::lookSoft(World::Impl& w) {
                        softPairs.back().body == touch.body;
     if (!again) softPairs.push_back({touch.element, touch.body});
     const SoftElement& element = w.softCollider.element(touch.element);
-    for (const BodyId i : {element.from, element.to, touch.body}) callAwake(w, i);
+    for (const BodyId i : {element.from, element.to, touch.body}) callAwake(w.sleep, i);
   }
   if (w.sleep.called.size() == called) return true;
-  wakeCalled(w);
+  (*wake)();
   return false;
 }
 

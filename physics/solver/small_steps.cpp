@@ -2,12 +2,12 @@
 #include "physics/solver/small_steps.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "physics/not_finite.h"
+#include "physics/model/finite.h"
 #include "physics/solver/small_steps_impl.h"
 
 namespace physics {
+
 SmallSteps::SmallSteps() : impl_(std::make_unique<Impl>()) {}
 SmallSteps::~SmallSteps() = default;
 SmallSteps::SmallSteps(SmallSteps&&) noexcept = default;
@@ -95,7 +95,7 @@ void SmallSteps::Impl::advancePart(World::Impl& w, int parts, StepReport& report
     report.work.moves += static_cast<std::int64_t>(batch.bodies.size()) * count;
   }
   gatherSoft(w);
-  checkSolved(w, report);
+  checkFinite(w, report);
 }
 
 // Islands with a body that moves by more than contacts are watched within step in two halves, with
@@ -141,7 +141,8 @@ void SmallSteps::Impl::learnLoads(World::Impl& w) {
   }
 }
 
-void SmallSteps::step(World::Impl& w, StepReport& report) {
+void SmallSteps::step(World::Impl& w, const std::function<void()>& wake, StepReport& report) {
+  impl_->wake = &wake;
   impl_->learn(w);
   if (impl_->fresh && w.touches) impl_->learnLoads(w);
   impl_->advance(w, report);

@@ -13,6 +13,7 @@
 // flies on, exactly.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -29,7 +30,8 @@ class SmallSteps {
   SmallSteps(SmallSteps&&) noexcept;
   SmallSteps& operator=(SmallSteps&&) noexcept;
 
-  void step(World::Impl& world, StepReport& report);
+  // `wake` makes those step that Sleep::called names.
+  void step(World::Impl& world, const std::function<void()>& wake, StepReport& report);
 
   std::vector<KeptContact>& contacts();
   const std::vector<KeptContact>& contacts() const;

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 
-#include "physics/islands.h"
 #include "physics/solver/articulation.h"
 #include "physics/solver/contact_block.h"
 #include "physics/solver/deformable.h"
@@ -145,6 +144,7 @@ struct SmallSteps::Impl {
   void advancePart(World::Impl& w, int parts, StepReport& report);
   void advance(World::Impl& w, StepReport& report);
   void learnLoads(World::Impl& w);
+  const std::function<void()>* wake = nullptr;  // of the present step
   bool fresh = true;  // nothing has stepped yet, or the state came from elsewhere
   void fill(const World::Impl& w, double h, ContactBlock& block) const;
   void rows(World::Impl& w, Batch& batch, double h);
