@@ -7,8 +7,8 @@
 
 namespace physics {
 
-// A = J M^-1 J^T, and M^-1 J^T in `response`. massOf(body) is any struct of the inverse mass and the
-// inverse inertia in the world.
+// A = J M^-1 J^T, and M^-1 J^T in `response`. massOf(body) is any struct of the inverse mass and
+// the inverse inertia in the world.
 template <class C, class F>
 Eigen::Matrix<double, C::kRows, C::kRows> respond(const C& item, const Evaluated<C>& row,
                                                   Response<C>& response, F&& massOf) {

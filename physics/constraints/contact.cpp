@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "physics/constraints/contact_shapes.h"
+#include "physics/constraints/friction.h"
 
 namespace physics {
 namespace {

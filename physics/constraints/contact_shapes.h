@@ -1,7 +1,6 @@
-// What contacts take from the shapes and materials of two bodies.
+// What contacts take from the shapes of two bodies.
 #pragma once
 
-#include <cmath>
 #include <variant>
 
 #include "physics/body.h"
@@ -17,12 +16,6 @@ inline bool hasFaces(const Shape& shape) {
 // Between two of these the normal joins the centres.
 inline bool isBall(const Shape& shape) {
   return std::holds_alternative<Sphere>(shape) || std::holds_alternative<PointShape>(shape);
-}
-
-// Geometric means.
-inline Friction frictionBetween(const Friction& a, const Friction& b) {
-  return {std::sqrt(a.staticCoefficient * b.staticCoefficient),
-          std::sqrt(a.dynamicCoefficient * b.dynamicCoefficient)};
 }
 
 }  // namespace physics

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "physics/constraints/contact.h"
+#include "physics/constraints/friction.h"
 #include "physics/rotation.h"
 
 namespace physics {
@@ -140,8 +141,7 @@ bool solveTangent(const FrictionRows& rows, const Vec2& c, const Friction& frict
   if (!sticks) {
     const double stiffest = 0.5 * (k11 + k22) + std::hypot(0.5 * (k11 - k22), k12);
     next = before - xi / stiffest * c;
-    const double length = next.norm();
-    if (length > limit) next *= friction.dynamicCoefficient * normal / length;
+    next *= heldShare(friction, next.norm(), normal);
   }
   total = next.x() * rows.r1.d + next.y() * rows.r2.d;
   add(push, rows.r1, next.x() - before.x());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/constraints/friction.h"
 #include "physics/rotation.h"
 
 namespace physics {
@@ -44,13 +45,6 @@ void give(const SoftContact& contact, const Vec3& impulse, const Vec3& arm, Bodi
   displace(bodies.pose[contact.body], -b.m * impulse, -(b.inertia * arm.cross(impulse)));
 }
 
-// Coulomb's bound on the total: sticking within nu_s, else sliding with nu_d, (101).
-Vec3 bounded(const Vec3& total, double normal, const Friction& friction) {
-  const double length = total.norm();
-  if (length <= friction.staticCoefficient * normal) return total;
-  return friction.dynamicCoefficient * normal / length * total;
-}
-
 bool solveFriction(SoftContact& contact, Bodies& bodies, double xi) {
   const Pose& b = bodies.pose[contact.body];
   const Vec3 n = b.q * contact.normal, p = pointOf(contact, bodies.pose);
@@ -64,7 +58,8 @@ bool solveFriction(SoftContact& contact, Bodies& bodies, double xi) {
     if (!(resistance > 1e-300)) return resistance == resistance;
     next -= xi / resistance * slip;
   }
-  next = bounded(next - next.dot(n) * n, contact.normalTotal, contact.friction);
+  next -= next.dot(n) * n;
+  next *= heldShare(contact.friction, next.norm(), contact.normalTotal);
   const Vec3 change = next - contact.frictionTotal;
   if (!change.allFinite()) return false;
   contact.frictionTotal = next;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "physics/constraints/friction.h"
 #include "physics/methods/nonlinear_gauss_seidel.h"
 
 namespace physics {
@@ -115,10 +116,7 @@ void sweepPoint(FrozenPoint& point, double xi, World::Impl& world) {
     before[k] = row.total;
     friction[k] = row.total - xi * errorOf(row, world) / row.resistance;
   }
-  const double length = friction.norm();
-  if (length > point.friction.staticCoefficient * next) {  // (101)
-    friction *= point.friction.dynamicCoefficient * next / length;
-  }
+  friction *= heldShare(point.friction, friction.norm(), next);  // (101)
   for (int k = 0; k < 2; ++k) {
     move(point.rows[k + 1], friction[k] - before[k], world);
     point.rows[k + 1].total = friction[k];

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/constraint_solve.h"
+#include "physics/constraints/friction.h"
 
 namespace physics {
 namespace {
@@ -101,7 +102,7 @@ void rubExplicitly(const Vec2& stretched, const Vec2& damped, StiffTouch& contac
   const double normal = contact.f[0], length = (stretched + damped).norm();
   const Friction& friction = contact.touch.friction;
   contact.sliding = length > friction.staticCoefficient * normal;
-  const double share = contact.sliding ? friction.dynamicCoefficient * normal / length : 1;
+  const double share = heldShare(friction, length, normal);
   contact.f.tail<2>() = share * (stretched + damped);
   *contact.friction = share * (stretched[0] * contact.rows[1].d + stretched[1] * contact.rows[2].d);
 }

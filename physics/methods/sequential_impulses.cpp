@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/constraint_solve.h"
+#include "physics/constraints/friction.h"
 #include "physics/methods/rival.h"
 
 namespace physics {
@@ -221,11 +222,7 @@ void sweepFriction(const ImpulseTouch& contact, std::vector<Correction>& moved) 
     before[k] = total.dot(row.d);
     next[k] = before[k] - alongRow(contact.touch, row, moved) / row.resistance;
   }
-  const Friction& friction = contact.touch.friction;
-  const double length = next.norm();
-  if (length > friction.staticCoefficient * *contact.normal) {
-    next *= friction.dynamicCoefficient * *contact.normal / length;
-  }
+  next *= heldShare(contact.touch.friction, next.norm(), *contact.normal);
   total = next[0] * contact.rows[1].d + next[1] * contact.rows[2].d;
   for (int k = 0; k < 2; ++k) give(contact, contact.rows[k + 1], next[k] - before[k], moved);
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "physics/constraints/friction.h"
+
 namespace physics {
 
 Vec3 slipOf(const SoftRow& row, std::span<const Displacement> moved) {
@@ -29,10 +31,7 @@ void giveTo(const SoftRow& row, const Vec3& impulse, std::span<Displacement> mov
 void rub(SoftRow& row, std::span<Displacement> moved) {
   const Eigen::Vector2d wanted =
       row.friction - row.tangentInverse * (row.tangents.transpose() * slipOf(row, moved));
-  const double length = wanted.norm();
-  const bool slides = length > row.coefficients.staticCoefficient * row.lambda;
-  const double limit = row.coefficients.dynamicCoefficient * row.lambda;
-  const Eigen::Vector2d total = slides ? Eigen::Vector2d(limit / length * wanted) : wanted;
+  const Eigen::Vector2d total = heldShare(row.coefficients, wanted.norm(), row.lambda) * wanted;
   giveTo(row, row.tangents * (total - row.friction), moved);
   row.friction = total;
 }
