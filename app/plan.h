@@ -42,7 +42,7 @@ std::string planText(const Plan& plan);  // at most 100 columns
 //   step {seconds, spread, steps, repeats, evaluations, sweeps, contacts, pairs_tested, pairs_kept,
 //         rows, bytes, problem}
 //   work {broad_phase, narrow_phase, contact_visits, friction_rows, turns, gyroscopic, moves,
-//         rest_speeds, made_anew}: per step, physics/report.h
+//         rest_speeds, made_anew}: per step, physics/model/report.h
 //   effects [{name, part, on, left_out, why, count, unit, rows, bytes, share, within, without,
 //             stays}] in a fixed order; share is null where it is not measured by itself
 //   rest {share}: what is no effect's; all shares sum to 1

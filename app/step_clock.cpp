@@ -8,8 +8,8 @@
 
 #include "app/interrupt.h"
 #include "app/stopwatch.h"
-#include "physics/effects/free_motion.h"
-#include "physics/probe.h"
+#include "physics/base/profile.h"
+#include "physics/motion/free_motion.h"
 
 namespace app {
 

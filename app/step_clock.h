@@ -1,5 +1,5 @@
 // What the steps of a scene take, and what they take it for: the clock beside the step's own words
-// of what it turns to (physics/probe.h).
+// of what it turns to (physics/base/profile.h).
 #pragma once
 
 #include <cstdint>

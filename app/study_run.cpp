@@ -10,7 +10,7 @@
 #include "app/interrupt.h"
 #include "app/machine.h"
 #include "app/stopwatch.h"
-#include "physics/state.h"
+#include "physics/world/state.h"
 
 namespace app {
 

@@ -1,19 +1,20 @@
 // The step of "Displacement Based Dynamics", with the corrections listed in paper.md. Numbers in
-// brackets are the paper's equations. A substep of the default method is solver/small_steps.h,
+// brackets are the paper's equations. A substep of the default method is small_steps/small_steps.h,
 // Algorithm 1 of the paper stepping/substep.cpp.
 #include "physics/world.h"
 
+#include "physics/base/profile.h"
+#include "physics/effects/local_substeps.h"
+#include "physics/effects/skip_inactive.h"
 #include "physics/effects/sleep.h"
-#include "physics/groups.h"
-#include "physics/not_finite.h"
-#include "physics/presence.h"
-#include "physics/probe.h"
+#include "physics/stepping/not_finite.h"
 #include "physics/stepping/substep.h"
+#include "physics/world/impl.h"
 
 namespace physics {
 namespace {
 
-void begin(World::Impl& w, StepReport& report) {
+void begin(WorldState& w, StepReport& report) {
   if (w.settings.contact) w.takeShapes();
   wakeCalled(w);
   for (const BodyId i : w.bodies.active) {
@@ -22,21 +23,21 @@ void begin(World::Impl& w, StepReport& report) {
   }
   checkFinite(w, report);
   for (const auto& [body, velocity] : w.last.replaced) checkFinite(w, body, report);
-  turnTo("arm");
+  profileScope("arm");
   drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
-  turnTo("");
+  profileScope("");
   keepStart(w);
 }
 
-void end(World::Impl& w, StepReport& report) {
+void end(WorldState& w, StepReport& report) {
   if (report.notFinite) {
     restore(w);
   } else {
-    turnTo("local_substeps");
+    profileScope("local_substeps");
     askForSubsteps(w);
-    turnTo("sleep");
+    profileScope("sleep");
     fallAsleep(w, report);
-    turnTo("");
+    profileScope("");
   }
   for (const BodyId i : w.loaded) w.loads[i] = {};
   w.loaded.clear();
@@ -50,7 +51,7 @@ void countLooks(const Collider::Counts& before, const Collider::Counts& after, S
 }
 
 // The default method.
-void smallSteps(World::Impl& w, StepReport& report) {
+void smallSteps(WorldState& w, StepReport& report) {
   w.small.step(
       w, [&w] { wakeCalled(w); }, report);
   nameHardest(w, report);
@@ -58,11 +59,11 @@ void smallSteps(World::Impl& w, StepReport& report) {
 
 // The paper's methods and the rivals: all that is awake at once, or one group of islands after the
 // other; anew where a group met what did not step with it.
-void sweepSteps(World::Impl& w, StepReport& report) {
+void sweepSteps(WorldState& w, StepReport& report) {
   do {
-    turnTo("local_substeps");
+    profileScope("local_substeps");
     takeGroups(w);
-    turnTo("");
+    profileScope("");
     if (w.local.groups.empty()) substeps(w, report);
     for (Group& group : w.local.groups) {
       enter(w, group);

@@ -31,8 +31,8 @@
 #include "physics/constraints/volume.h"
 #include "physics/kinematics/arm_def.h"
 #include "physics/kinematics/arm_report.h"
-#include "physics/report.h"
-#include "physics/settings.h"
+#include "physics/model/report.h"
+#include "physics/model/settings.h"
 
 namespace physics {
 

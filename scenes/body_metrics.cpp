@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 #include "scenes/metrics.h"
 
 namespace scenes {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "physics/constraint_item.h"
+#include "physics/constraints/constraint_item.h"
 #include "scenes/effect_words.h"
 #include "scenes/settings_reader.h"
 #include "scenes/survey.h"

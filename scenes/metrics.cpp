@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 
 namespace scenes {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "physics/body.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/bodies/body.h"
 #include "physics/make/tet_mesh.h"
 #include "scenes/value.h"
 

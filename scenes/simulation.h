@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "physics/measure.h"
 #include "physics/world.h"
+#include "physics/world/measure.h"
 #include "scenes/scene.h"
 
 namespace scenes {
@@ -24,9 +24,10 @@ struct FrameMetrics {
   double maxSpeed = 0;
   int contacts = 0;
   int iterations = 0;
-  int asleep = 0;                   // bodies
-  int bounded = 0;                  // islands whose energy was bounded, over the substeps
-  int restarts = 0, fallbacks = 0;  // of second-order steppings, body by body; physics/report.h
+  int asleep = 0;   // bodies
+  int bounded = 0;  // islands whose energy was bounded, over the substeps
+  int restarts = 0,
+      fallbacks = 0;  // of second-order steppings, body by body; physics/model/report.h
 };
 
 class Simulation {

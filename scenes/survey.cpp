@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "physics/constraint_item.h"
-#include "physics/effects/free_motion.h"
+#include "physics/constraints/constraint_item.h"
+#include "physics/motion/free_motion.h"
 
 namespace scenes {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 #include "scenes/camera.h"
 #include "scenes/metrics.h"
 #include "scenes/overlays.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 
 namespace app {
 namespace {

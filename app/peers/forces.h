@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "physics/constraint_item.h"
+#include "physics/constraints/constraint_item.h"
 
 namespace app {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 
 namespace app {
 namespace {

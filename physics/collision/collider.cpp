@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/base/profile.h"
 #include "physics/collision/narrow.h"
 #include "physics/collision/pairs.h"
 #include "physics/collision/sweep.h"
-#include "physics/probe.h"
 
 namespace physics {
 
@@ -195,12 +195,12 @@ std::span<const std::pair<BodyId, BodyId>> Collider::ignored() const {
 
 std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<const Pose> end,
                                          double margin) {
-  turnTo("broad_phase");
+  profileScope("broad_phase");
   const std::size_t pairs = prepare(start, end, margin);
-  turnTo("narrow_phase");
+  profileScope("narrow_phase");
   lookAt(0, pairs);
   const std::span<const Manifold> found = gather();
-  turnTo("contact");
+  profileScope("contact");
   return found;
 }
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "physics/shape.h"
-#include "physics/types.h"
+#include "physics/base/types.h"
+#include "physics/bodies/shape.h"
 
 namespace physics {
 

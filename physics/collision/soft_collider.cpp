@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/rotation.h"
 #include "physics/collision/narrow.h"
-#include "physics/rotation.h"
 
 namespace physics {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/body.h"
+#include "physics/bodies/body.h"
 #include "physics/collision/solid.h"
 
 namespace physics {
@@ -76,7 +76,7 @@ class SoftCollider {
 
   std::vector<SoftElement> elements_;
   std::vector<Rigid> rigids_;
-  std::vector<int> rigidOf_;  // by body, -1: none
+  std::vector<int> rigidOf_;                    // by body, -1: none
   std::vector<std::array<BodyId, 2>> ignored_;  // sorted
   std::vector<SoftTouch> touches_;
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/hull.h"
+#include "physics/bodies/hull.h"
 
 namespace physics::collision {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "physics/shape.h"
-#include "physics/types.h"
+#include "physics/base/types.h"
+#include "physics/bodies/shape.h"
 
 namespace physics::collision {
 

@@ -5,8 +5,8 @@
 //   parallel: c = 0, J is regular; antiparallel: any w normal to n_i serves, e has length pi.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

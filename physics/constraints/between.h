@@ -1,7 +1,7 @@
 // The geometry that constraints between two points share: p_i - p_j and its gradient. (60)-(62)
 #pragma once
 
-#include "physics/constraint.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/body.h"
+#include "physics/bodies/body.h"
 #include "physics/collision/collider.h"
 
 namespace physics {

@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "physics/body.h"
+#include "physics/bodies/body.h"
 
 namespace physics {
 

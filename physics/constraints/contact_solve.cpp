@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/rotation.h"
 #include "physics/constraints/contact.h"
 #include "physics/constraints/friction.h"
-#include "physics/rotation.h"
 
 namespace physics {
 namespace {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/rotation.h"
 #include "physics/constraints/contact.h"
-#include "physics/rotation.h"
 
 namespace physics {
 namespace {

@@ -3,8 +3,8 @@
 //   dp = 0: no direction; the row rests on the y axis, so that coincident points part.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

@@ -3,8 +3,8 @@
 //   K = beta h (|u| 1 + u u^T/|u|). It acts at the centre of mass. u = 0: no force, K = 0.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

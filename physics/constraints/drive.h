@@ -5,8 +5,8 @@
 //   At |dtheta| = pi the shorter way is ambiguous and one is taken.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

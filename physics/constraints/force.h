@@ -2,8 +2,8 @@
 //   c = x - x(t) [m];  f = force, K = 0                                            (102)-(105)
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

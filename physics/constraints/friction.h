@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "physics/body.h"
+#include "physics/bodies/body.h"
 
 namespace physics {
 

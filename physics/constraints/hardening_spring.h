@@ -3,8 +3,8 @@
 //   K = (k + 3 k3 s^2) h^2 + nu h. dp = 0 has no direction and no force.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

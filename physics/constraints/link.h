@@ -5,8 +5,8 @@
 //   part.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

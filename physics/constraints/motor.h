@@ -3,8 +3,8 @@
 //   tau_max h^2
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

@@ -3,8 +3,8 @@
 //   K = tau_s h/omega_f. omega_f infinite: a constant torque. (102)-(107) n is an axis of body i.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

@@ -5,8 +5,8 @@
 //   2018). At |c| = pi the shorter way is ambiguous: one is taken.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

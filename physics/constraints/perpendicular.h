@@ -4,8 +4,8 @@
 //   parallel or antiparallel: any w normal to n_i serves.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

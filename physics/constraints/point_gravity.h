@@ -4,8 +4,8 @@
 //   with the approach, and leaving that out of K costs iterations and changes no fixed point.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

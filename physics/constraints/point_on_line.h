@@ -4,8 +4,8 @@
 //   forces act at p_j. Never singular.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

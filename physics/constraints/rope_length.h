@@ -7,8 +7,8 @@
 //   ends held, J M^-1 J^T = 0 and nothing is solved.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

@@ -4,8 +4,8 @@
 //   ds/dx_j = n^T, ds/dtheta_j = (r_j x n)^T, opposite for i with p_j - x_i in place of r_j
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

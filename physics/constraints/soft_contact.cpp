@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/rotation.h"
 #include "physics/constraints/friction.h"
-#include "physics/rotation.h"
 
 namespace physics {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "physics/body.h"
+#include "physics/bodies/body.h"
 #include "physics/collision/soft_collider.h"
 
 namespace physics {

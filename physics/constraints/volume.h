@@ -10,8 +10,8 @@
 //   factor 1/4 and whose c the generic solve has right.
 #pragma once
 
-#include "physics/constraint.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/constraints/constraint.h"
 
 namespace physics {
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/choose_scheme.h"
-#include "physics/constraint_response.h"
-#include "physics/effects/second_order.h"
-#include "physics/islands.h"
-#include "physics/methods/nonlinear_gauss_seidel.h"
-#include "physics/world_impl.h"
+#include "physics/constraints/constraint_response.h"
+#include "physics/effects/choose_scheme.h"
+#include "physics/model/islands.h"
+#include "physics/motion/second_order.h"
+#include "physics/state/world_state.h"
+#include "physics/sweep/nonlinear_gauss_seidel.h"
 
 namespace physics {
 namespace {
@@ -30,7 +30,7 @@ struct Whole {
   double inner = 1, outer = 1;              // factors of the relative and of the rigid part
 };
 
-bool applies(const World::Impl& w) {
+bool applies(const WorldState& w) {
   return w.touches && !isSecondOrder(w.settings) && w.settings.stepping != Stepping::kStatic;
 }
 
@@ -42,7 +42,7 @@ double kineticEnergy(const Bodies& b, BodyId i) {
 }
 
 // Its kinetic energy at the start, and what gravity and loads did [J].
-double allowedOf(const World::Impl& w, BodyId i, double h) {
+double allowedOf(const WorldState& w, BodyId i, double h) {
   const Velocity& velocity = w.bodies.velocity[i];
   const Vec3 force =
       w.bodies.mass[i] * w.settings.gravity.value_or(Vec3::Zero()) + w.loads[i].force;
@@ -50,13 +50,13 @@ double allowedOf(const World::Impl& w, BodyId i, double h) {
 }
 
 // What a mass may gain where nothing is joined [J].
-double settling(const World::Impl& w, double mass, double h) {
+double settling(const WorldState& w, double mass, double h) {
   const Vec3 g = w.settings.gravity.value_or(Vec3::Zero());
   return kSettling * mass * h * h * g.squaredNorm();
 }
 
 // Whether some island can have: one that gains too much has a body that does.
-bool mayGain(const World::Impl& w, double h) {
+bool mayGain(const WorldState& w, double h) {
   const std::vector<ContactPair>& pairs = w.contacts.pairs;
   const bool pushes = !w.contacts.lost.empty() ||
                       std::any_of(pairs.begin(), pairs.end(),
@@ -69,7 +69,7 @@ bool mayGain(const World::Impl& w, double h) {
 }
 
 // What joints and this substep's contacts join.
-Islands findIslands(World::Impl& w) {
+Islands islandsNow(WorldState& w) {
   Islands islands = jointIslands(w);
   joinPushed(w.contacts, w.bodies, islands);
   settle(islands, w.bodies.active);
@@ -93,7 +93,7 @@ double workOf(const C& item, const Multipliers<C>& lambda, const Bodies& bodies,
 
 // What contacts move, and what joins it and does work on it. What moved bodies do is not known:
 // their islands are left alone.
-void mark(World::Impl& w, const Islands& islands, double h, std::vector<Whole>& wholes) {
+void mark(WorldState& w, const Islands& islands, double h, std::vector<Whole>& wholes) {
   forEachPush(w.contacts, [&](const ContactPair& pair) {
     for (const BodyId body : {pair.a, pair.b}) {
       wholes[islands[body]].pushed = true;
@@ -116,7 +116,7 @@ void mark(World::Impl& w, const Islands& islands, double h, std::vector<Whole>& 
   });
 }
 
-void sumUp(const World::Impl& w, const Islands& islands, double h, std::vector<Whole>& wholes) {
+void sumUp(const WorldState& w, const Islands& islands, double h, std::vector<Whole>& wholes) {
   const Bodies& b = w.bodies;
   for (const BodyId i : b.active) {
     Whole& whole = wholes[islands[i]];
@@ -128,14 +128,14 @@ void sumUp(const World::Impl& w, const Islands& islands, double h, std::vector<W
   }
 }
 
-bool gains(const World::Impl& w, const Whole& whole, double h) {
+bool gains(const WorldState& w, const Whole& whole, double h) {
   if (!whole.pushed || whole.driven) return false;
   const double least = kRounding * whole.kinetic + (whole.jointed ? 0 : settling(w, whole.mass, h));
   return whole.kinetic - whole.allowed > least;
 }
 
 // The rigid motion of the same momenta; none about an axis that nothing is away from.
-void findRigidPart(const World::Impl& w, const Islands& islands, BodyId root, Whole& whole) {
+void findRigidPart(const WorldState& w, const Islands& islands, BodyId root, Whole& whole) {
   const Bodies& b = w.bodies;
   whole.centre /= whole.mass;
   whole.v = whole.momentum / whole.mass;
@@ -180,16 +180,16 @@ void scale(Bodies& b, BodyId i, const Whole& whole) {
 
 }  // namespace
 
-void noteKineticEnergy(World::Impl& w) {
+void noteKineticEnergy(WorldState& w) {
   w.kineticBefore.clear();
   if (!applies(w)) return;
   w.kineticBefore.resize(w.bodies.pose.size());
   for (const BodyId i : w.bodies.active) w.kineticBefore[i] = kineticEnergy(w.bodies, i);
 }
 
-int boundEnergy(World::Impl& w, double h) {
+int boundEnergy(WorldState& w, double h) {
   if (w.kineticBefore.empty() || !mayGain(w, h)) return 0;
-  const Islands islands = findIslands(w);
+  const Islands islands = islandsNow(w);
   std::vector<Whole> wholes(islands.size());
   mark(w, islands, h, wholes);
   sumUp(w, islands, h, wholes);

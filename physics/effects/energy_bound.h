@@ -9,14 +9,14 @@
 // small gains are left as well, for bodies that settle on each other.
 #pragma once
 
-#include "physics/world_impl.h"
+#include "physics/state/world_state.h"
 
 namespace physics {
 
 // Takes down the kinetic energy at the start of the substep, where bodies may be in contact.
-void noteKineticEnergy(World::Impl& world);
+void noteKineticEnergy(WorldState& world);
 
 // After the velocities, before restitution. Returns how many islands were held back.
-int boundEnergy(World::Impl& world, double h);
+int boundEnergy(WorldState& world, double h);
 
 }  // namespace physics

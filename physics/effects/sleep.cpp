@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "physics/effects/second_order.h"
-#include "physics/islands.h"
-#include "physics/methods/rival.h"
-#include "physics/world_impl.h"
+#include "physics/model/islands.h"
+#include "physics/motion/second_order.h"
+#include "physics/rivals/rival.h"
+#include "physics/state/world_state.h"
 
 namespace physics {
 namespace {
@@ -21,7 +21,7 @@ bool isSlow(const Bodies& bodies, BodyId i, double speed) {
 }
 
 // True where some body has been slow for long enough.
-bool countStill(World::Impl& w, int enough) {
+bool countStill(WorldState& w, int enough) {
   bool any = false;
   for (const BodyId i : w.bodies.active) {
     int& still = w.sleep.still[i];
@@ -35,7 +35,7 @@ bool countStill(World::Impl& w, int enough) {
 }
 
 // By everything that is watched: what may touch soon does not sleep apart.
-Islands watchedIslands(World::Impl& w) {
+Islands watchedIslands(WorldState& w) {
   Islands islands = jointIslands(w);
   for (const ContactPair& pair : w.contacts.pairs) join(w.bodies, islands, pair.a, pair.b);
   for (const KeptContact& c : w.small.contacts()) join(w.bodies, islands, c.a, c.b);
@@ -48,7 +48,7 @@ Islands watchedIslands(World::Impl& w) {
 }
 
 // The bodies of islands that have been slow for long enough, in order.
-std::vector<BodyId> restingBodies(const World::Impl& w, const Islands& islands, int enough) {
+std::vector<BodyId> restingBodies(const WorldState& w, const Islands& islands, int enough) {
   std::vector<char> rests(islands.size(), 1);
   for (const BodyId i : w.bodies.active) {
     if (w.sleep.still[i] < enough) rests[islands[i]] = 0;
@@ -60,7 +60,7 @@ std::vector<BodyId> restingBodies(const World::Impl& w, const Islands& islands, 
   return bodies;
 }
 
-void stop(World::Impl& w, BodyId i) {
+void stop(WorldState& w, BodyId i) {
   Bodies& b = w.bodies;
   b.velocity[i] = {};
   b.start[i] = w.ahead[i] = w.last.pose[i] = b.pose[i];
@@ -89,12 +89,12 @@ void carry(std::vector<Pair>& from, std::vector<Pair>& to, F&& leaves) {
 }
 
 template <class Pair>
-bool isAsleep(const World::Impl& w, const Pair& pair) {
+bool isAsleep(const WorldState& w, const Pair& pair) {
   return w.sleep.asleep[pair.a] || w.sleep.asleep[pair.b];
 }
 
 // What steps from now on, and what only stays in it for its turn or its gravity.
-void listAwake(World::Impl& w) {
+void listAwake(WorldState& w) {
   const auto isAwake = [&](BodyId i) { return !w.sleep.asleep[i]; };
   Bodies& b = w.bodies;
   b.active.clear();
@@ -134,7 +134,7 @@ bool sleeps(const Settings& settings) {
          !isRival(settings.method) && settings.method != Method::kLinearGaussSeidel;
 }
 
-void fallAsleep(World::Impl& w, StepReport& report) {
+void fallAsleep(WorldState& w, StepReport& report) {
   if (!sleeps(w.settings)) return;
   makeRoom(w.sleep, w.bodies.pose.size());
   const int enough =
@@ -161,7 +161,7 @@ void fallAsleep(World::Impl& w, StepReport& report) {
   report.asleep = w.sleep.count;
 }
 
-void wakeCalled(World::Impl& w) {
+void wakeCalled(WorldState& w) {
   if (w.sleep.called.empty()) return;
   std::vector<char> wakes(w.bodies.pose.size(), 0);  // by an island's first body
   for (const BodyId body : w.sleep.called) wakes[w.sleep.island[body]] = 1;

@@ -7,7 +7,7 @@
 // What it changes: a body that would go on slower than `speed` stands still.
 #pragma once
 
-#include "physics/world_impl.h"
+#include "physics/state/world_state.h"
 
 namespace physics {
 
@@ -15,9 +15,9 @@ namespace physics {
 bool sleeps(const Settings& settings);
 
 // After a step.
-void fallAsleep(World::Impl& world, StepReport& report);
+void fallAsleep(WorldState& world, StepReport& report);
 
 // Islands of bodies that callAwake() named step again, from now on.
-void wakeCalled(World::Impl& world);
+void wakeCalled(WorldState& world);
 
 }  // namespace physics

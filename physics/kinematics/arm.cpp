@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "physics/base/rotation.h"
 #include "physics/kinematics/arm_joint.h"
-#include "physics/rotation.h"
 
 namespace physics {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "physics/body.h"
-#include "physics/fields.h"
+#include "physics/base/fields.h"
+#include "physics/bodies/body.h"
 
 namespace physics {
 

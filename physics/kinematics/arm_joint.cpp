@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 
 namespace physics {
 namespace {

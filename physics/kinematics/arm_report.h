@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "physics/types.h"
+#include "physics/base/types.h"
 
 namespace physics {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "physics/base/rotation.h"
 #include "physics/kinematics/arm_joint.h"
-#include "physics/rotation.h"
 
 namespace physics {
 namespace {

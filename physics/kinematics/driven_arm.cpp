@@ -1,7 +1,7 @@
 // Arms that move bodies.
 #include "physics/kinematics/driven_arm.h"
 
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 
 namespace physics {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "physics/base/rotation.h"
 #include "physics/make/hinge.h"
-#include "physics/rotation.h"
 
 namespace physics {
 namespace {

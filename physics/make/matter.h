@@ -6,17 +6,18 @@
 #include <optional>
 #include <vector>
 
-#include "physics/fields.h"
+#include "physics/base/fields.h"
 #include "physics/world.h"
 
 namespace physics {
 
-// Members of a generator's definition may be, besides those of physics/fields.h: int, std::string,
-// Shape, std::optional<Friction>, std::vector of these, and a struct that has `fields` itself.
+// Members of a generator's definition may be, besides those of physics/base/fields.h: int,
+// std::string, Shape, std::optional<Friction>, std::vector of these, and a struct that has `fields`
+// itself.
 
 inline constexpr double kMorePositive = std::numeric_limits<double>::min();  // a bound: > 0
-inline constexpr int kMostBodies = 100000;  // of a generator, and of a scene: some 200 MB
-inline constexpr double kWaterDensity = 1000;                                // kg/m^3, the default
+inline constexpr int kMostBodies = 100000;     // of a generator, and of a scene: some 200 MB
+inline constexpr double kWaterDensity = 1000;  // kg/m^3, the default
 
 // Mass or density of each body, and its friction.
 struct Matter {

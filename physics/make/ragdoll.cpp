@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 
 namespace physics {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "physics/types.h"
+#include "physics/base/types.h"
 
 namespace physics {
 

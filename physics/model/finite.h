@@ -2,7 +2,7 @@
 #pragma once
 
 #include "physics/model/model.h"
-#include "physics/report.h"
+#include "physics/model/report.h"
 
 namespace physics {
 

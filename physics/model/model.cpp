@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "physics/constraint_response.h"
+#include "physics/constraints/constraint_response.h"
 
 namespace physics {
 

@@ -2,16 +2,17 @@
 // settings. It does not see the World, nor what other methods keep.
 #pragma once
 
+#include "physics/base/workers.h"
 #include "physics/collision/collider.h"
 #include "physics/constraints/contact.h"
+#include "physics/constraints/kinds.h"
 #include "physics/constraints/soft_contact.h"
-#include "physics/effects/free_motion.h"
-#include "physics/effects/restitution.h"
-#include "physics/islands.h"
-#include "physics/kinds.h"
+#include "physics/model/islands.h"
+#include "physics/model/report.h"
+#include "physics/model/settings.h"
 #include "physics/model/sleep.h"
-#include "physics/settings.h"
-#include "physics/workers.h"
+#include "physics/motion/free_motion.h"
+#include "physics/motion/restitution.h"
 
 namespace physics {
 

@@ -1,5 +1,5 @@
 // Which joint kernels this processor runs. All give the same bytes.
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 #include "physics/solver/joint_block.h"
 
 namespace physics {

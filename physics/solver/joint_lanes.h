@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/body.h"
+#include "physics/bodies/body.h"
 #include "physics/solver/joint_row.h"
 
 namespace physics {

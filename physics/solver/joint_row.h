@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "physics/kinds.h"
+#include "physics/constraints/kinds.h"
 #include "physics/solver/joint_block.h"
 
 namespace physics {

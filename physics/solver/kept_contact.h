@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/body.h"
+#include "physics/bodies/body.h"
 #include "physics/collision/collider.h"
 #include "physics/constraints/contact.h"
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "physics/constraint_response.h"
-#include "physics/kinds.h"
-#include "physics/probe.h"
+#include "physics/base/profile.h"
+#include "physics/constraints/constraint_response.h"
+#include "physics/constraints/kinds.h"
 #include "physics/solver/articulation.h"
 
 namespace physics {
@@ -151,7 +151,7 @@ void forEachRow(SweptRows& rows, const Kinds& kinds, F&& f) {
     using K = std::decay_t<decltype(kind)>;
     using C = typename K::Item;
     auto& list = std::get<std::vector<SweptRow<C>>>(rows);
-    if (!list.empty()) turnTo(K::kWord);
+    if (!list.empty()) profileScope(K::kWord);
     for (SweptRow<C>& swept : list) {
       f(kind.set.items[swept.item], swept, kind.set.tuned[swept.item].regularisation);
     }

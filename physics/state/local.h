@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "physics/constraints/contact.h"
+#include "physics/constraints/kinds.h"
 #include "physics/constraints/soft_contact.h"
-#include "physics/islands.h"
-#include "physics/kinds.h"
-#include "physics/methods/joint_system.h"
+#include "physics/model/islands.h"
+#include "physics/sweep/joint_system.h"
 
 namespace physics {
 

@@ -1,28 +1,28 @@
-// A substep: predict, find contacts, prepare, iterate, apply, finish.
+// A substep (Algorithm 1): predict, find contacts, prepare, iterate, apply, finish.
 #include "physics/stepping/substep.h"
 
-#include "physics/choose_scheme.h"
+#include "physics/base/profile.h"
+#include "physics/effects/choose_scheme.h"
 #include "physics/effects/energy_bound.h"
-#include "physics/effects/restitution.h"
-#include "physics/effects/second_order.h"
-#include "physics/methods/direct.h"
-#include "physics/methods/nonlinear_gauss_seidel.h"
-#include "physics/methods/rival.h"
-#include "physics/not_finite.h"
-#include "physics/presence.h"
-#include "physics/probe.h"
+#include "physics/effects/skip_inactive.h"
+#include "physics/motion/restitution.h"
+#include "physics/motion/second_order.h"
+#include "physics/rivals/rival.h"
+#include "physics/stepping/not_finite.h"
+#include "physics/sweep/direct.h"
+#include "physics/sweep/nonlinear_gauss_seidel.h"
 
 namespace physics {
 namespace {
 
 constexpr int kMostLooks = 4;  // how often contacts are looked for anew within one substep
 
-bool contactsOutdated(const World::Impl& w) {
+bool contactsOutdated(const WorldState& w) {
   return w.touches && w.collider.outdated(poseAtStart(w), w.bodies.pose, w.bodies.active);
 }
 
 // Where the bodies would be at the end of the whole step, so that one look serves all its substeps.
-bool findContactsAhead(World::Impl& w, double remaining) {
+bool findContactsAhead(WorldState& w, double remaining) {
   for (const BodyId i : w.bodies.active) {
     w.ahead[i] = w.bodies.pose[i];
     displace(w.ahead[i], remaining * w.bodies.velocity[i].v, remaining * w.bodies.velocity[i].w);
@@ -31,7 +31,7 @@ bool findContactsAhead(World::Impl& w, double remaining) {
 }
 
 // At the start of a substep, whose number is k. Local substeps have looked for the whole step.
-bool lookForContacts(World::Impl& w, int k, double h) {
+bool lookForContacts(WorldState& w, int k, double h) {
   const bool isNew = k == 0 && w.local.groups.empty();
   if (w.touches && (isNew || contactsOutdated(w))) {
     if (!findContactsAhead(w, w.settings.dt - (k + 1) * h)) return false;
@@ -39,7 +39,7 @@ bool lookForContacts(World::Impl& w, int k, double h) {
   return findSoftContacts(w);
 }
 
-void solveOnce(World::Impl& w, double h, StepReport& report) {
+void solveOnce(WorldState& w, double h, StepReport& report) {
   switch (w.settings.method) {
     case Method::kNonlinearGaussSeidel:
     case Method::kSmallSteps:  // where it does not take what the world has
@@ -60,7 +60,7 @@ void keepLost(Contacts& contacts) {
   }
 }
 
-void solveConstraints(World::Impl& w, double h, StepReport& report) {
+void solveConstraints(WorldState& w, double h, StepReport& report) {
   solveOnce(w, h, report);
   // A body that was hit may have left the bounds in which contacts were looked for: look where it
   // went.
@@ -73,41 +73,41 @@ void solveConstraints(World::Impl& w, double h, StepReport& report) {
 }
 
 // From X^t, v^t to the displaced poses, by the schemes as they stand.
-void displaceAll(World::Impl& w, int k, double h, StepReport& report) {
-  turnTo("motion");
+void displaceAll(WorldState& w, int k, double h, StepReport& report) {
+  profileScope("motion");
   w.contacts.lost.clear();
   if (isSecondOrder(w.settings)) {
     moveFreelySecondOrder(w.bodies, w.loads, w.settings.gravity, h);
   } else {
     moveFreely(w.bodies, w.loads, w.settings.gravity, h);  // X^{t+1} (28)-(31)
   }
-  turnTo("inertia");
+  profileScope("inertia");
   refreshInverseMasses(w, h);
-  turnTo("");
+  profileScope("");
   checkFinite(w, report);
   if (report.notFinite || !lookForContacts(w, k, h)) return;
   if (w.settings.method == Method::kDirect) {
-    turnTo("direct");
+    profileScope("direct");
     prepareDirect(w);
   }
   prepareConstraints(w, h);        // multipliers of the last substep, gaps and anchors at X^t
   solveConstraints(w, h, report);  // Delta X (52),(53)
 }
 
-bool lowersSchemes(World::Impl& w, double h) {
-  turnTo("schemes");
+bool lowersSchemes(WorldState& w, double h) {
+  profileScope("schemes");
   return lowerSchemes(w, h);
 }
 
 // A scheme that the solve does not bear out is lowered and the substep made anew; the third time
 // everything steps by the paper's.
-void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
-  turnTo("schemes");
+void displaceBySchemes(WorldState& w, int k, double h, StepReport& report) {
+  profileScope("schemes");
   w.contactsBefore = w.contacts.pairs;
   chooseSchemes(w);
   displaceAll(w, k, h, report);
   for (int again = 0; again < 3 && goesOn(w, report) && lowersSchemes(w, h); ++again) {
-    turnTo("schemes");
+    profileScope("schemes");
     if (again == 2) stepByPaper(w);
     rewind(w.bodies);
     w.contacts.pairs = w.contactsBefore;
@@ -115,12 +115,12 @@ void displaceBySchemes(World::Impl& w, int k, double h, StepReport& report) {
   }
 }
 
-void finish(World::Impl& w, double h, StepReport& report) {
-  turnTo("");
+void finish(WorldState& w, double h, StepReport& report) {
+  profileScope("");
   const double restitution = w.touches ? w.settings.contact->restitution : 0;
   if (restitution > 0) w.velocityBefore = w.bodies.velocity;
   if (isSecondOrder(w.settings)) {
-    turnTo("schemes");
+    profileScope("schemes");
     finishSecondOrder(w.bodies, w.loads, w.settings.gravity);
     projectVelocities(w);
   } else {
@@ -129,17 +129,17 @@ void finish(World::Impl& w, double h, StepReport& report) {
   }
   std::vector<bool> jumped;
   if (restitution > 0) {
-    turnTo("restitution");
+    profileScope("restitution");
     jumped = restitute(w.contacts, w.bodies, restitution, w.flight(h));
   }
   if (isSecondOrder(w.settings)) {
-    turnTo("schemes");
+    profileScope("schemes");
     recordSchemes(w, jumped, report);
   }
-  turnTo("");
+  profileScope("");
 }
 
-void countSubstep(const World::Impl& w, StepReport& report) {
+void countSubstep(const WorldState& w, StepReport& report) {
   ++report.substeps;
   report.work.moves += static_cast<std::int64_t>(w.bodies.active.size());
   report.work.turns += w.turning;
@@ -148,20 +148,20 @@ void countSubstep(const World::Impl& w, StepReport& report) {
 }
 
 // A whole substep of a rival, from contacts found as for the other methods.
-void substepOfRival(World::Impl& w, int k, double h, StepReport& report) {
-  turnTo("motion");
+void substepOfRival(WorldState& w, int k, double h, StepReport& report) {
+  profileScope("motion");
   coast(w, h);
   checkFinite(w, report);
   if (report.notFinite) return;
   lookForContacts(w, k, h);
-  turnTo("rival");
+  profileScope("rival");
   rivalSubstep(w, h, report);
-  turnTo("");
+  profileScope("");
   checkSolved(w, report);
   countSubstep(w, report);
 }
 
-void substep(World::Impl& w, int k, double h, StepReport& report) {
+void substep(WorldState& w, int k, double h, StepReport& report) {
   w.substep = k;
   const bool isStatic = w.settings.stepping == Stepping::kStatic;
   if (isStatic) bringToRest(w.bodies);
@@ -177,11 +177,11 @@ void substep(World::Impl& w, int k, double h, StepReport& report) {
 
 }  // namespace
 
-bool goesOn(const World::Impl& w, const StepReport& report) {
+bool goesOn(const WorldState& w, const StepReport& report) {
   return !report.notFinite && w.met.empty();
 }
 
-void substeps(World::Impl& w, StepReport& report) {
+void substeps(WorldState& w, StepReport& report) {
   report.substeps = 0;
   const double h = w.substepLength();
   for (int k = 0; k < w.substeps && goesOn(w, report); ++k) substep(w, k, h, report);

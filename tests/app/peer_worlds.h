@@ -9,7 +9,7 @@
 #include "physics/make/hinge.h"
 #include "physics/make/prismatic.h"
 #include "physics/make/universal.h"
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/sweeps.h"
 
 namespace tests {

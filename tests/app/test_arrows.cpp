@@ -2,6 +2,7 @@
 // every third-party package behind the files that may know it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -60,6 +61,38 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair("scenes", std::set<std::string>{"scenes", "physics", "render"}),
                     std::pair("app", std::set<std::string>{"app", "scenes", "physics", "render"})),
     [](const auto& info) { return info.param.first; });
+
+// The rooms of physics/ from bottom to top: a file includes what is in its own room or below it.
+const std::vector<std::string> kRooms = {"base",        "bodies",   "collision", "constraints",
+                                         "kinematics",  "motion",   "solver",    "model",
+                                         "small_steps", "sweep",    "rivals",    "state",
+                                         "effects",     "stepping", "world",     "make"};
+
+// -1: in none. physics/world.h and physics/world.cpp are of the room that their name says.
+int roomOf(const std::string& path) {
+  std::smatch match;
+  static const std::regex kRoom(R"(physics/(?:(\w+)/\w+\.(?:h|cpp)|(world)\.(?:h|cpp)))");
+  if (!std::regex_match(path, match, kRoom)) return -1;
+  const auto found = std::find(kRooms.begin(), kRooms.end(), match[1].str() + match[2].str());
+  return found == kRooms.end() ? -1 : static_cast<int>(found - kRooms.begin());
+}
+
+TEST(Rooms, IncludeOnlyWhatIsBelowThem) {
+  for (const Include& include : findIncludes("physics")) {
+    if (!startsWith(include.what, "physics/")) continue;
+    EXPECT_LE(roomOf(include.what), roomOf(include.file.string()))
+        << include.file << " includes " << include.what;
+    EXPECT_GE(roomOf(include.what), 0) << include.file << " includes " << include.what;
+  }
+}
+
+TEST(Rooms, HoldEveryFileOfPhysics) {
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(DBD_SOURCE) / "physics")) {
+    const std::string ending = entry.path().extension().string();
+    if (ending != ".h" && ending != ".cpp") continue;
+    EXPECT_GE(roomOf(fs::relative(entry.path(), DBD_SOURCE).string()), 0) << entry.path();
+  }
+}
 
 // How an include begins, and the files that may have it: how their path begins.
 const std::map<std::string, std::string> kPackages = {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "app/plan.h"
-#include "physics/probe.h"
+#include "physics/base/profile.h"
 #include "program.h"
 
 namespace tests {

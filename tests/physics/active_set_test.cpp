@@ -3,8 +3,8 @@
 
 #include "physics/constraints/link.h"
 #include "physics/constraints/twist_limit.h"
-#include "physics/measure.h"
 #include "physics/world.h"
+#include "physics/world/measure.h"
 
 namespace physics {
 namespace {

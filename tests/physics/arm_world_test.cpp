@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "physics/kinematics/driven_arm.h"
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/arms.h"
 #include "tests/physics/slope.h"
 

@@ -3,10 +3,10 @@
 
 #include <Eigen/Dense>
 
+#include "physics/base/rotation.h"
 #include "physics/kinematics/arm_joint.h"
 #include "physics/kinematics/arm_solve.h"
 #include "physics/make/matter.h"
-#include "physics/rotation.h"
 
 namespace physics::testing {
 

@@ -3,8 +3,8 @@
 
 #include "physics/constraints/ball_socket.h"
 #include "physics/constraints/force.h"
-#include "physics/measure.h"
 #include "physics/world.h"
+#include "physics/world/measure.h"
 #include "tests/physics/sweeps.h"
 
 namespace physics {

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/points.h"
 

@@ -20,7 +20,7 @@ struct Pair {
   Vec3 gap() const { return rowOf(joint, bodies).c; }
   Mat3 resistanceOfBoth() const {
     Response<BallSocket> response;
-    return resistance(joint, rowOf(joint, bodies), bodies.inverse, response);
+    return effectiveMassInverse(joint, rowOf(joint, bodies), bodies.inverse, response);
   }
   // (64),(73),(94),(121) with the lever of the second body given.
   Mat3 written(const Vec3& rj) const {

@@ -98,7 +98,7 @@ Bodies printed66(Bodies bodies, int iterations) {
   const auto row = rowOf(kJoint, bodies);
   const Vec3 d = row.c.normalized();
   Response<BallSocket> response;
-  const double mu = 1 / d.dot(resistance(kJoint, row, bodies.inverse, response) * d);
+  const double mu = 1 / d.dot(effectiveMassInverse(kJoint, row, bodies.inverse, response) * d);
   for (int k = 0; k < iterations; ++k) {
     const Vec3 change = -mu * gap(bodies) * d;
     for (int b = 0; b < 2; ++b) {

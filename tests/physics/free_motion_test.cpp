@@ -1,9 +1,9 @@
 // Free motion (28)-(31): falling, and turning without torque.
-#include "physics/effects/free_motion.h"
+#include "physics/motion/free_motion.h"
 
 #include <gtest/gtest.h>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/sweeps.h"
 

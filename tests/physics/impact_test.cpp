@@ -1,7 +1,7 @@
 // Impacts: energy, restitution, and bodies too fast for one step.
 #include <gtest/gtest.h>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/sweeps.h"
 

@@ -1,5 +1,5 @@
 // What the checks that every kind runs need to know of a kind. The primary template stays
-// undefined: a kind in physics/kinds.h without a Case does not compile.
+// undefined: a kind in physics/constraints/kinds.h without a Case does not compile.
 //   make        some constraint of the kind between bodies 0 and 1, violated where they stand
 //   toGradient  moves the bodies to where its rows are the gradient of its c; where that is
 //               everywhere, nothing happens
@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "physics/kinds.h"
+#include "physics/constraints/kinds.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/slide_cases.h"
 

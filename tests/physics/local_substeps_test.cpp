@@ -1,7 +1,7 @@
 // Local substeps: the stiff island gets all, the others as few as keep the tolerance.
 #include <gtest/gtest.h>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/stage.h"
 
 namespace physics {

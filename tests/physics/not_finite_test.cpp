@@ -6,8 +6,8 @@
 
 #include "physics/make/rope.h"
 #include "physics/make/soft_body.h"
-#include "physics/measure.h"
-#include "physics/state.h"
+#include "physics/world/measure.h"
+#include "physics/world/state.h"
 #include "tests/physics/arms.h"
 #include "tests/physics/not_a_number.h"
 

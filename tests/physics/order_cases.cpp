@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 
 namespace physics::testing {
 namespace {

@@ -1,9 +1,9 @@
 // Two bodies, or a few, outside a World: what the solver sees, for tests of one constraint.
 #pragma once
 
-#include "physics/constraint_solve.h"
-#include "physics/effects/free_motion.h"
+#include "physics/constraints/constraint_solve.h"
 #include "physics/make/matter.h"
+#include "physics/motion/free_motion.h"
 
 namespace physics::testing {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "physics/measure.h"
 #include "physics/world.h"
+#include "physics/world/measure.h"
 #include "tests/physics/gravity.h"
 #include "tests/physics/sweeps.h"
 

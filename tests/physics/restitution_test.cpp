@@ -1,7 +1,7 @@
 // Restitution: impacts one by one against closed forms (tables C06 to C08 of tests/reference).
 #include <gtest/gtest.h>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/gravity.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/sweeps.h"

@@ -1,7 +1,7 @@
 // The rival methods in contact: rest, friction, stacks, impacts.
 #include <cmath>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/rivals.h"
 
 namespace physics::testing {

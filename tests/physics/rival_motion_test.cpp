@@ -1,7 +1,7 @@
 // The rival methods on motions with closed forms.
 #include <cmath>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/rivals.h"
 
 namespace physics::testing {

@@ -1,5 +1,5 @@
 // Our own sine, arc tangent, exponential and logarithm against the C library's in long double.
-#include "physics/rotation.h"
+#include "physics/base/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,8 @@ double worstSine(double range) {
   return worst;
 }
 
-// 2e-16 is what physics/rotation.h promises; rounding of a result in [1/2, 1] alone is 0.6e-16.
+// 2e-16 is what physics/base/rotation.h promises; rounding of a result in [1/2, 1] alone is
+// 0.6e-16.
 TEST(SineCosine, IsExactToRoundingWithinATurn) { EXPECT_LT(worstSine(2 * kPi), 2e-16); }
 
 TEST(SineCosine, IsExactToRoundingForManyTurns) { EXPECT_LT(worstSine(100), 2e-16); }

@@ -1,7 +1,7 @@
 // Sleep: who falls asleep, what it costs, what wakes it, and that it changes next to nothing.
 #include <gtest/gtest.h>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/stage.h"
 
 namespace physics {

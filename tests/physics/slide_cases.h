@@ -1,7 +1,7 @@
 // The cases of the kinds that prismatic and universal joints are made of, and of a constant force.
 #pragma once
 
-#include "physics/kinds.h"
+#include "physics/constraints/kinds.h"
 #include "physics/make/matter.h"
 
 namespace physics::testing {

@@ -3,7 +3,7 @@
 
 #include "physics/make/prismatic.h"
 #include "physics/make/universal.h"
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/pair.h"
 
 namespace physics::testing {

@@ -21,7 +21,7 @@ TEST(VectorSpring, EveryIterateIsThatOf123) {
   Multipliers<VectorSpring> lambda;
   for (int k = 0; k < 6; ++k) {
     Response<VectorSpring> response;
-    const Mat3 a = resistance(item, rowOf(item, bodies), bodies.inverse, response);
+    const Mat3 a = effectiveMassInverse(item, rowOf(item, bodies), bodies.inverse, response);
     const double alpha = 800 * kStep * kStep + 3 * kStep;
     const Vec3 speed = (gap(bodies.pose) - gap(bodies.start)) / kStep;
     const Vec3 right = alpha * (a * lambda.total) - 800 * kStep * kStep * gap(bodies.pose) -

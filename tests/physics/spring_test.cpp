@@ -90,7 +90,8 @@ void expectIterates(Update update) {
           .norm();
     };
     Response<Spring> response;
-    const double a = resistance(item, rowOf(item, bodies), bodies.inverse, response)(0, 0);
+    const double a =
+        effectiveMassInverse(item, rowOf(item, bodies), bodies.inverse, response)(0, 0);
     const double now = gap(bodies.pose), speed = (now - gap(bodies.start)) / kStep;
     const double expected = update(lambda.total[0], a, 800, 3, now - 0.5, speed);
     visit(item, lambda, bodies, kStep);

@@ -3,9 +3,9 @@
 
 #include <limits>
 
-#include "physics/constraint_item.h"
-#include "physics/measure.h"
+#include "physics/constraints/constraint_item.h"
 #include "physics/world.h"
+#include "physics/world/measure.h"
 
 namespace physics {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/order_cases.h"
 #include "tests/physics/stage.h"
 #include "tests/physics/sweeps.h"

@@ -1,7 +1,7 @@
 // The paper's method, for tests of what it does: a test that says no method is of the default one.
 #pragma once
 
-#include "physics/settings.h"
+#include "physics/model/settings.h"
 
 namespace physics::testing {
 

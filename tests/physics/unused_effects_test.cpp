@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "physics/make/rope.h"
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/stage.h"
 #include "tests/physics/sweeps.h"
 

@@ -1,13 +1,13 @@
 // Threads: everything they share is done once, and nothing that comes out depends on them.
-#include "physics/workers.h"
+#include "physics/base/workers.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <vector>
 
-#include "physics/measure.h"
 #include "physics/world.h"
+#include "physics/world/measure.h"
 #include "tests/physics/stage.h"
 
 namespace physics::testing {

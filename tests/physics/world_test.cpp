@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "physics/measure.h"
+#include "physics/world/measure.h"
 #include "tests/physics/not_a_number.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/sweeps.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "physics/constraint_item.h"
+#include "physics/constraints/constraint_item.h"
 #include "scenes/effects.h"
 #include "scenes/simulation.h"
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "physics/bodies/hull.h"
 #include "physics/collision/soft_collider.h"
-#include "physics/hull.h"
 #include "tests/physics/collision/scene_of_two.h"
 
 namespace physics {

@@ -1,0 +1,154 @@
+// The generic solve of one constraint.
+//
+//   A = J M^-1 J^T,  alpha = row.alpha + epsilon tr(A)/rows
+//   lambda <- clamp(lambda - xi (A + alpha)^-1 (c + alpha lambda)),  dX += M^-1 J^T (change of
+//   lambda)
+//
+// which is (52) with relaxation (53) and regularisation (56),(59) in the corrected signs of
+// paper.md, the total multiplier clamped and the difference applied. lambda is the multiplier times
+// h^2.
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "physics/constraints/constraint_response.h"
+
+namespace physics {
+
+template <class Vector>
+void clampTotal(Vector& total, double low, double high, double longest) {
+  total = total.cwiseMax(low).cwiseMin(high);
+  if (std::isfinite(longest)) {
+    const double length = total.norm();
+    if (length > longest)
+      total *= longest / length;  // (132) by length, then the difference is applied
+  }
+}
+
+// -xi (A + alpha)^-1 residual; in the scalar form only along the residual, (63),(67).
+template <int R>
+Eigen::Matrix<double, R, 1> step(Eigen::Matrix<double, R, R> a, double alpha, double xi, Form form,
+                                 const Eigen::Matrix<double, R, 1>& residual) {
+  if constexpr (R == 1) {
+    return -xi * residual / (a(0, 0) + alpha);
+  } else {
+    if (form == Form::kScalar) {
+      const double squared = residual.squaredNorm();
+      if (squared == 0) return Eigen::Matrix<double, R, 1>::Zero();
+      return -xi * residual * (squared / (residual.dot(a * residual) + alpha * squared));
+    }
+    a.diagonal().array() += alpha;
+    return -xi * (a.inverse() * residual);
+  }
+}
+
+// The part of an error that is wrong: all of an equality's, the violated side of a bound's.
+template <int B, int R>
+typename Row<B, R>::Vector wrongPart(const Row<B, R>& row, const typename Row<B, R>::Vector& c) {
+  if (row.high <= 0) return c.cwiseMax(0);
+  if (row.low >= 0) return c.cwiseMin(0);
+  return c;
+}
+
+template <class C>
+typename Set<C>::Vector standingError(const Evaluated<C>& row) {
+  if constexpr (Force<C>) {
+    return Set<C>::Vector::Zero();
+  } else {
+    return wrongPart(row, row.c);
+  }
+}
+
+// How much of `standing` is to be taken back where the whole error is c: a bound gives way as far
+// as it has room.
+template <int B, int R>
+typename Row<B, R>::Vector toTakeBack(const Row<B, R>& row,
+                                      const typename Row<B, R>::Vector& standing,
+                                      const typename Row<B, R>::Vector& c) {
+  if (row.high <= 0) return standing.cwiseMin(c);
+  if (row.low >= 0) return standing.cwiseMax(c);
+  return standing;
+}
+
+// The error c but for what is left to later substeps; that may close, and is not held open.
+template <class V>
+V withoutLeft(const V& c, const V& left) {
+  const double squared = left.squaredNorm();
+  if (squared == 0) return c;
+  return c - std::clamp(c.dot(left) / squared, 0.0, 1.0) * left;
+}
+
+// The new total of a constraint whose error is c.
+template <class C>
+typename Set<C>::Vector solved(const C& item, const Evaluated<C>& row,
+                               const typename Gradients<C::kBodies, C::kRows>::Matrix& a,
+                               const typename Set<C>::Tuned& tuned,
+                               const typename Set<C>::Vector& c,
+                               const typename Set<C>::Vector& total) {
+  const double extra = tuned.regularisation * a.trace() / C::kRows;  // (54)
+  const typename Set<C>::Vector residual = c + (row.alpha + (tuned.damps ? 0 : extra)) * total;
+  typename Set<C>::Vector next =
+      total + step<C::kRows>(a, row.alpha + extra, tuned.relaxation, formOf(item), residual);
+  clampTotal(next, row.low, row.high, row.longest);
+  return next;
+}
+
+// The new total of a force: (1 + K A) dlambda = xi (f h^2 - lambda), (106),(118),(124).
+template <class C>
+typename Set<C>::Vector pushed(const Evaluated<C>& push,
+                               const typename Gradients<C::kBodies, C::kRows>::Matrix& a, double xi,
+                               const typename Set<C>::Vector& total) {
+  using Matrix = typename Gradients<C::kBodies, C::kRows>::Matrix;
+  const Matrix left = Matrix::Identity() + push.k * a;
+  typename Set<C>::Vector next = total + xi * (left.inverse() * (push.f - total));
+  constexpr double kFree = std::numeric_limits<double>::infinity();
+  clampTotal(next, -kFree, kFree, push.longest);
+  return next;
+}
+
+// A constraint's error is split into what the motion of this substep made (solved by `total`, which
+// lasts) and what did not come by motion (solved by `once`, which is forgotten, and moves bodies
+// without speeding them): what contacts take back of their overlap, and, where it is `split`, what
+// stood wrong at the start. False: a change was not finite.
+template <class C>
+bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
+           Bodies& bodies, const Configuration& at, Scratch<C>& s) {
+  item.evaluate(at, s.row);
+  if (!s.row.active) return true;
+  const auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
+  const double mean = a.trace() / C::kRows;
+  if (!(mean > 1e-300)) return mean == mean;  // nothing here can move
+  using Vector = typename Set<C>::Vector;
+  Vector once = Vector::Zero(), lasting;
+  if constexpr (Force<C>) {
+    lasting = pushed<C>(s.row, a, tuned.relaxation, lambda.total) - lambda.total;
+  } else {
+    Vector c = withoutLeft(s.row.c, lambda.left);
+    if (tuned.split || tuned.touches) {
+      const Vector standing = lambda.standing + along(item, s.row, bodies.correction);
+      if (!standing.isZero(0) || !lambda.once.isZero(0)) {
+        once = solved(item, s.row, a, tuned, toTakeBack(s.row, standing, c), lambda.once) -
+               lambda.once;
+        c -= wrongPart(s.row, standing);
+      }
+    }
+    lasting = solved(item, s.row, a, tuned, c, lambda.total) - lambda.total;
+  }
+  if (!once.allFinite() || !lasting.allFinite()) return false;
+  lambda.once += once;
+  lambda.total += lasting;
+  displaceBodies(item, s.response, once, lasting, bodies);
+  countTwist(item, s.row, lasting, bodies);
+  return true;
+}
+
+// The same where the bodies may step by several schemes.
+template <class C>
+bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
+           Bodies& bodies, double dt, Scratch<C>& s) {
+  return solve(item, lambda, tuned, bodies, configurationOf(item, bodies, dt), s);
+}
+
+}  // namespace physics

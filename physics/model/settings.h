@@ -1,0 +1,72 @@
+// How a World steps: time, method and the effects that are on.
+#pragma once
+
+#include <optional>
+
+#include "physics/bodies/body.h"
+
+namespace physics {
+
+enum class Method {
+  kNonlinearGaussSeidel,  // (52)
+  kDirect,                // (42) for joints, Gauss-Seidel for what has bounds
+  kLinearGaussSeidel,     // (51), for comparison
+  kXpbd,                  // from here on rivals, see rivals/rival.h
+  kSequentialImpulses,
+  kPenalty,  // implicit steps
+  kPenaltyExplicit,
+  kSmallSteps,  // small_steps/small_steps.h
+};
+enum class Stepping {
+  kPaper,   // backward Euler
+  kStatic,  // no motion: every step solves from rest and ends at rest, so that with one substep and
+            // one iteration the steps are the solver's iterations
+  kBdf2,    // second order, stable at any stiffness; the end of a step decides the directions
+  kSymmetric,  // RATTLE: second order, keeps energy where the step resolves the motion
+};
+enum class Regularisation {
+  kCompliance,  // in mu and as alpha lambda (56): gives way
+  kDamping,     // in mu alone: slower, and exact where an exact solution exists. NOTES 3.5
+};
+
+struct ContactSettings {
+  Friction friction;
+  double restitution = 0;         // 0..1
+  double maxSeparationSpeed = 1;  // v_max: overlap that exists already is resolved no faster [m/s]
+  double margin = 0.02;           // gaps below this are watched at rest [m]
+};
+
+// Islands that have come to rest are left alone until something touches them. effects/sleep.h
+struct SleepSettings {
+  double speed = 1e-3;  // at rest: all of an island slower than this [m/s]
+  double time = 0.5;    // for so long [s]
+};
+
+struct Settings {
+  double dt = 1.0 / 60;  // one step() [s]
+  int substeps = 4;
+  int iterations = 1;       // sweeps over all constraints per substep, at least
+  int maxIterations = 40;   // and at the most, while contacts still move by more than
+  double tolerance = 2e-7;  // this in a sweep [m]
+  Method method = Method::kSmallSteps;
+  Stepping stepping = Stepping::kPaper;
+  double relaxation = 1;      // xi (53)
+  double regularisation = 0;  // epsilon, alpha = epsilon * J M^-1 J^T (54)
+  Regularisation regularisationForm = Regularisation::kCompliance;
+  bool spinInertia = false;    // M~ of (36),(65) instead of M, where |w| h <= 0.2
+  bool refreshInertia = true;  // inertia follows the turn of every iteration (4.1)
+  bool warmStart = true;       // contacts start from the last substep's multipliers
+  bool warmStartJoints =
+      false;  // and so do joints: better at rest, but violent motion may gain energy
+  std::optional<double> maxCorrectionSpeed;  // a joint's error at X^t is taken back no faster [m/s,
+                                             // rad/s]; absent: in one substep
+  std::optional<double> penaltyStiffness;    // kappa of the penalty methods; absent: their own
+  std::optional<Vec3> gravity;               // m/s^2; absent: none
+  std::optional<ContactSettings> contact;    // absent: nothing touches
+  std::optional<SleepSettings> sleep;        // absent: nothing sleeps
+  bool localSubsteps = false;    // each island as many as it needs, `substeps` at the most
+  double localTolerance = 1e-4;  // error of a joint, or overlap, that asks for more [m or rad]
+  bool leavesOut = true;         // what cannot matter is not computed; false: for comparison
+};
+
+}  // namespace physics

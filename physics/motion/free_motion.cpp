@@ -1,0 +1,166 @@
+// Free motion and the velocities at the end of a substep.
+#include "physics/motion/free_motion.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "physics/base/rotation.h"
+
+namespace physics {
+namespace {
+
+// Beyond this turn per substep n . M~^-1 n may become negative: a constraint would pull the wrong
+// way. NOTES 3.2
+constexpr double kLargestTurn = 0.2;  // rad
+
+void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
+  Pose& pose = bodies.pose[i];
+  Vec3& w = bodies.velocity[i].w;
+  if (!bodies.general && isIsotropic(bodies.inertia[i])) {  // the gyroscopic torque is zero
+    w += dt * bodies.inverseInertia[i].x() * torque;        // (30)
+    bodies.freeTurn[i] = dt * w;
+  } else {
+    const Mat3 rotation = pose.q.toRotationMatrix();
+    Vec3 omega = rotation.transpose() * w;
+    omega += dt * bodies.inverseInertia[i].cwiseProduct(rotation.transpose() * torque);
+    const FreeTurn turn = freeTurn(bodies.inertia[i], omega, dt);
+    bodies.freeTurn[i] = dt * (rotation * turn.mean);
+    w = exponential(bodies.freeTurn[i]) * (rotation * turn.after);
+  }
+  pose.q = exponential(bodies.freeTurn[i]) * pose.q;  // (31)
+}
+
+// Newton on F(Omega_m) = I Omega_m - (1 - e) M - e exp(-h Omega_m) M; dF = I - e h [M']x to first
+// order in h.
+FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end) {
+  constexpr int kMostIterations = 30;
+  const Vec3 momentum = inertia.cwiseProduct(omega);
+  const double scale = momentum.norm();
+  FreeTurn turn{omega, omega, true};
+  if (scale == 0) return turn;
+  for (int k = 0; k < kMostIterations; ++k) {
+    const Vec3 after = exponential(-dt * turn.mean) * momentum;
+    const Vec3 residual = inertia.cwiseProduct(turn.mean) - ((1 - end) * momentum + end * after);
+    if (residual.norm() <= 4e-16 * scale || k == kMostIterations - 1) {
+      turn.converged = residual.norm() <= 1e-9 * scale;
+      turn.after = after.cwiseQuotient(inertia);
+      break;
+    }
+    Mat3 jacobian = -end * dt * skew(after);
+    jacobian.diagonal() += inertia;
+    turn.mean -= jacobian.inverse() * residual;
+  }
+  return turn;
+}
+
+// One turn after the other; the mean is that of a steady turn which ends at the same orientation.
+FreeTurn solveParts(const Vec3& inertia, const Vec3& omega, double dt, int parts) {
+  FreeTurn whole{Vec3::Zero(), omega, true};
+  Quat turned = Quat::Identity();
+  for (int k = 0; k < parts && whole.converged; ++k) {
+    const FreeTurn part = solveTurn(inertia, whole.after, dt / parts, 0.5);
+    turned = turned * exponential(dt / parts * part.mean);
+    whole = {whole.mean + part.mean / parts, part.after, part.converged};
+  }
+  whole.mean = unwrapped(logarithm(turned.normalized()), dt * whole.mean) / dt;
+  return whole;
+}
+
+}  // namespace
+
+Quat movedOrientation(const Bodies& bodies, BodyId i) {
+  return exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
+}
+
+bool isIsotropic(const Vec3& inertia) {
+  return inertia.x() == inertia.y() && inertia.y() == inertia.z();
+}
+
+Vec3 unwrapped(const Vec3& turn, const Vec3& free) {
+  const double angle = turn.norm();
+  if (angle < 1e-9 || free.squaredNorm() < 1) return turn;
+  const Vec3 axis = turn / angle;
+  return (angle + 2 * kPi * std::nearbyint((free.dot(axis) - angle) / (2 * kPi))) * axis;
+}
+
+FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end) {
+  constexpr int kMostParts = 4096;
+  FreeTurn turn = solveTurn(inertia, omega, dt, end);
+  for (int parts = 2; !turn.converged && end == 0.5 && parts <= kMostParts; parts *= 2) {
+    turn = solveParts(inertia, omega, dt, parts);
+  }
+  return turn.converged ? turn : FreeTurn{omega, omega, false};
+}
+
+void moveFreely(Bodies& bodies, BodyId i, const Load& load, const std::optional<Vec3>& gravity,
+                double dt) {
+  bodies.start[i] = bodies.pose[i];
+  if (bodies.motion[i] == Motion::kStatic) return;
+  Velocity& velocity = bodies.velocity[i];
+  bodies.shift[i].setZero();
+  bodies.correction[i] = {};
+  if (bodies.motion[i] == Motion::kDynamic) {
+    if (gravity) velocity.v += dt * *gravity;  // (28)
+    velocity.v += dt * bodies.inverse[i].m * load.force;
+  }
+  bodies.pose[i].x += dt * velocity.v;  // (29)
+  if (bodies.inverseInertia[i].isZero(0)) {
+    bodies.freeTurn[i] = dt * velocity.w;
+    if (!velocity.w.isZero(0)) bodies.pose[i].q = exponential(dt * velocity.w) * bodies.pose[i].q;
+  } else {
+    turnFreely(bodies, i, load.torque, dt);
+  }
+}
+
+void moveFreely(Bodies& bodies, std::span<const Load> loads, const std::optional<Vec3>& gravity,
+                double dt) {
+  for (const BodyId i : bodies.active) moveFreely(bodies, i, loads[i], gravity, dt);
+}
+
+void finishVelocity(Bodies& bodies, BodyId i, double dt) {
+  if (bodies.motion[i] != Motion::kDynamic) return;
+  bodies.velocity[i].v += bodies.shift[i] / dt;  // (43)
+  if (bodies.inverseInertia[i].isZero(0)) return;
+  bodies.pose[i].q.normalize();
+  const Quat moved = movedOrientation(bodies, i);
+  const Vec3 turn = unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
+  if (!bodies.general && isIsotropic(bodies.inertia[i])) {
+    bodies.velocity[i].w = turn / dt;  // bounded by pi/h, where the sum (45) is not; paper.md
+  } else {
+    bodies.velocity[i].w += (turn - bodies.freeTurn[i]) / dt;
+  }
+}
+
+void finishVelocities(Bodies& bodies, double dt) {
+  for (const BodyId i : bodies.active) finishVelocity(bodies, i, dt);
+}
+
+void refreshInertia(Bodies& bodies) {
+  for (const BodyId i : bodies.anisotropic) {
+    const Mat3 rotation = bodies.pose[i].q.toRotationMatrix();
+    bodies.inverse[i].inertia =
+        rotation * bodies.inverseInertia[i].asDiagonal() * rotation.transpose();
+  }
+}
+
+// The second term is half that of (65), because velocities come from the quaternion's logarithm
+// and not from (45). NOTES 3.2
+void refreshSpinInertia(Bodies& bodies, double dt) {
+  refreshInertia(bodies);
+  for (const BodyId i : bodies.anisotropic) {
+    const Vec3 turn = dt * bodies.velocity[i].w;
+    if (bodies.motion[i] != Motion::kDynamic || turn.norm() > kLargestTurn) continue;
+    const Mat3 rotation = bodies.pose[i].q.toRotationMatrix();
+    const Mat3 inertia = rotation * bodies.inertia[i].asDiagonal() * rotation.transpose();
+    const Mat3 spinning = inertia - skew(inertia * turn) + 0.5 * inertia * skew(turn);
+    bodies.inverse[i].inertia = spinning.inverse();
+  }
+}
+
+void bringToRest(Bodies& bodies) {
+  for (const BodyId i : bodies.active) {
+    if (bodies.motion[i] == Motion::kDynamic) bodies.velocity[i] = {};
+  }
+}
+
+}  // namespace physics

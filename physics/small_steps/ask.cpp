@@ -1,0 +1,119 @@
+// How many substeps and sweeps the next step wants.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+namespace {
+
+// What contacts may give way by on the average of their load, as a share of the smaller body.
+constexpr double kLargestSag = 1.25e-4;
+constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
+constexpr double kLargestTurn =
+    0.05;  // rad, of what is solved at once: its rows are taken as straight
+constexpr int kMostSubsteps = 64;
+// What the last velocity sweep may change, of the energy that an island has in g h^2 and in motion.
+constexpr double kRest = 1e-6;
+constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved again in each
+
+// What goes with h^2 and is `times` too large.
+int substepsFor(int present, double times) {
+  return static_cast<int>(std::min<double>(std::ceil(present * std::sqrt(times)), kMostSubsteps));
+}
+
+// What goes with h, of pieces that turn by so much in a step [rad].
+int substepsForTurn(double turn) {
+  return static_cast<int>(std::min<double>(std::ceil(turn / kLargestTurn), kMostSubsteps));
+}
+
+}  // namespace
+
+// The energy of islands, by their first body, that a sweep may change a share of.
+void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch, double h) {
+  const Bodies& b = w.bodies;
+  const double g2 = w.settings.gravity ? w.settings.gravity->squaredNorm() : 0;
+  for (const BodyId i : batch.bodies) {
+    energy[i] = change[i] = load[i] = sag[i] = 0;
+  }
+  for (const BodyId i : batch.bodies) {
+    if (b.motion[i] != Motion::kDynamic) continue;
+    energy[islands[i]] += b.mass[i] * (g2 * h * h * h * h + moved[i].u.squaredNorm());
+  }
+}
+
+// The sag of a contact under what it has carried for two steps, and what the last sweep changed.
+void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch) {
+  const Bodies& b = w.bodies;
+  for (const ContactBlock& block : batch.blocks) {
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
+      const KeptContact& c = contacts[block.contact[l]];
+      const BodyId root = islands[isMovable(b, c.a) ? c.a : c.b];
+      change[root] += block.change[l];
+      const double soft = (1 - block.scale[l]) / (block.scale[l] * block.rate[l]);
+      const bool jointed = articulationOf[c.a] >= 0 || articulationOf[c.b] >= 0;
+      const double size = std::min(radius[c.a], radius[c.b]);
+      if (!(size > 0) || jointed) continue;
+      for (int k = 0; k < c.count; ++k) {
+        const double inverse = block.point[k].inverse[l];
+        const double lambda = std::min(c.lambda[k], c.before[k]);
+        if (!(inverse > 0)) continue;
+        load[root] += lambda;
+        sag[root] += lambda * soft * lambda / inverse / size;
+      }
+    }
+  }
+}
+
+// The same of the overlaps of points and links, relative to their thickness.
+void SmallSteps::Impl::askSoft(const Model& w, const Batch& batch) {
+  const Bodies& b = w.bodies;
+  if (batch.soft.empty()) return;
+  for (const BodyId i : batch.bodies) load[i] = change[i] = 0;
+  for (const SoftContact& c : batch.soft) {
+    const BodyId root = islands[isMovable(b, c.from) ? c.from : c.to];
+    load[root] += c.normalTotal;
+    change[root] += c.normalTotal * std::max(-gapOf(c, b.pose), 0.0) / c.radius;
+  }
+  for (const BodyId i : batch.bodies) {
+    if (islands[i] != i || !(load[i] > 0)) continue;
+    asked[i] =
+        std::max(asked[i], substepsFor(batch.substeps, change[i] / load[i] / kLargestStrain));
+  }
+}
+
+// The same of what deformables are off by.
+void SmallSteps::Impl::askDeformables(Model& w, const Batch& batch, double h) {
+  for (const BodyId i : batch.bodies) asked[i] = 0;
+  for (const int k : batch.deformables) {
+    const double off = deformables[k].strain(w.kinds, {w.bodies.pose, w.bodies.start, h});
+    const BodyId first = deformables[k].bodies().front();
+    asked[first] = substepsFor(batch.substeps, off / kLargestStrain);
+    if (!deformables[k].isDirect()) continue;
+    const double turn = deformables[k].turn({w.bodies.pose, w.bodies.start, h});
+    asked[first] = std::max(asked[first], substepsForTurn(batch.substeps * turn));
+  }
+}
+
+// Sag goes with h^2; what the last sweep changed tells whether an island is at rest.
+void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
+  askDeformables(w, batch, h);
+  askSoft(w, batch);
+  weighMotion(w, batch, h);
+  weighContacts(w, batch);
+  const int most = batch.articulations.empty() ? kMostSweeps : kMostJointedSweeps;
+  for (const BodyId i : batch.bodies) {
+    const BodyId root = islands[i];
+    if (load[root] > 0) {
+      const double off = sag[root] / load[root];
+      asked[i] = std::max(asked[i], substepsFor(batch.substeps, off / kLargestSag));
+    }
+    const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
+    askedSweeps[i] = batch.sweeps;
+    if (relative > kRest) askedSweeps[i] = std::min(most, batch.sweeps + 1);
+    if (relative < 0.1 * kRest) askedSweeps[i] = std::max(1, batch.sweeps - 1);
+  }
+}
+
+}  // namespace physics

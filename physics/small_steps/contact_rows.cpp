@@ -1,0 +1,243 @@
+// Contacts into the lanes that sweep over them, and back.
+#include <algorithm>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+namespace {
+
+// A contact is a spring of this many periods in a substep: above a quarter the energy of stacks
+// rises, below it substeps are wasted; and its damping ratio. Against what cannot move it is twice
+// as stiff.
+constexpr double kPeriods = 0.25, kDamping = 2;
+// Of the load at the start, carried without sag. With all of it contacts open and shut, and stacks
+// creep; with half of it pyramids take more sweeps.
+constexpr double kHeld = 0.25;
+
+Softness softness(double periods, double zeta) {
+  const double omega = 2 * kPi * periods;  // omega h
+  const double d = 1 + omega * (2 * zeta + omega);
+  return {static_cast<float>(1 - 1 / d), static_cast<float>(omega / (2 * zeta + omega))};
+}
+
+constexpr int kColours = 64, kColourLists = 2 * kColours;
+
+// The last colour of either kind is the overflow: a block each.
+int laneStride(int list) { return list % kColours == kColours - 1 ? ContactBlock::kLanes : 1; }
+
+// Blocks up to `end`, which are of one colour if they are `independent`.
+void addRun(int end, bool independent, std::vector<BlockRun>& runs) {
+  const int begin = runs.empty() ? 0 : runs.back().first + runs.back().count, count = end - begin;
+  if (count == 0) return;
+  const bool shared = independent && count >= 2 * kLeastBlocks;
+  if (!shared && !runs.empty() && !runs.back().shared) {
+    runs.back().count += count;
+  } else {
+    runs.push_back({begin, count, shared});
+  }
+}
+
+}  // namespace
+
+int SmallSteps::Impl::colourOf(const Bodies& b, const KeptContact& c) {
+  const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0;
+  auto& used = movesA && movesB ? colours : coloursFixed;
+  const std::uint64_t taken = (movesA ? used[c.a] : 0) | (movesB ? used[c.b] : 0);
+  int colour = kColours - 1;
+  if (~taken != 0) colour = std::min(__builtin_ctzll(~taken), kColours - 1);
+  if (movesA) used[c.a] |= std::uint64_t{1} << colour;
+  if (movesB) used[c.b] |= std::uint64_t{1} << colour;
+  return colour + (movesA && movesB ? 0 : kColours);
+}
+
+// A slot to every body, where it meets anything.
+void SmallSteps::Impl::takeSlots(Batch& batch) {
+  batch.slots.assign(1, kWorldBody);
+  batch.runs.clear();
+  if (batch.contacts.empty()) return batch.blocks.clear();
+  for (const BodyId i : batch.bodies) {
+    slotOf[i] = static_cast<int>(batch.slots.size());
+    batch.slots.push_back(i);
+    colours[i] = coloursFixed[i] = 0;
+  }
+  batch.motions.assign(batch.slots.size(), LaneMotion{});
+  batch.masses.assign(batch.slots.size(), LaneMass{});
+  batch.before.resize(batch.slots.size());
+}
+
+// Contacts of one colour share no body that moves. First those of two bodies that move, then those
+// with what does not, so that a sweep ends with nothing driven into a wall. A body with more
+// contacts than there are colours has the others one by one. Of a colour those with most points
+// come first: a block takes as long as its largest manifold.
+void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
+  takeSlots(batch);
+  if (batch.contacts.empty()) return;
+  placeOf.resize(batch.contacts.size());
+  std::array<int, kColourLists * ContactBlock::kPoints> first{};  // and by missing points
+  for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
+    const KeptContact& c = contacts[batch.contacts[i]];
+    placeOf[i] = colourOf(w.bodies, c) * ContactBlock::kPoints + ContactBlock::kPoints -
+                 std::max(c.count, 1);
+    ++first[placeOf[i]];
+  }
+  int lanes = 0;
+  for (int list = 0; list < kColourLists; ++list) {
+    for (int k = list * ContactBlock::kPoints; k < (list + 1) * ContactBlock::kPoints; ++k) {
+      const int count = first[k] * laneStride(list);
+      first[k] = lanes;
+      lanes += count;
+    }
+    lanes = (lanes + ContactBlock::kLanes - 1) / ContactBlock::kLanes * ContactBlock::kLanes;
+    addRun(lanes / ContactBlock::kLanes, laneStride(list) == 1, batch.runs);
+  }
+  batch.blocks.resize(lanes / ContactBlock::kLanes);
+  for (ContactBlock& block : batch.blocks) {
+    std::fill(std::begin(block.contact), std::end(block.contact), -1);
+    block.points = 1;
+  }
+  for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
+    int& place = first[placeOf[i]];
+    ContactBlock& block = batch.blocks[place / ContactBlock::kLanes];
+    block.contact[place % ContactBlock::kLanes] = batch.contacts[i];
+    block.points = std::max(block.points, contacts[batch.contacts[i]].count);
+    place += laneStride(placeOf[i] / ContactBlock::kPoints);
+  }
+}
+
+namespace {
+
+void put(float (&to)[3][8], int l, const Vec3& v) {
+  for (int k = 0; k < 3; ++k) to[k][l] = static_cast<float>(v[k]);
+}
+
+void emptyLane(ContactBlock& block, int l) {
+  block.bodyA[l] = block.bodyB[l] = 0;
+  put(block.n, l, Vec3::UnitY());
+  block.scale[l] = 1;
+  block.rate[l] = block.staticFriction[l] = block.dynamicFriction[l] = 0;
+  block.twist[l] = block.change[l] = 0;
+  for (auto& t : block.tangent) t.lambda[l] = 0;
+}
+
+void emptyPoint(ContactBlock& block, int k, int l) {
+  ContactBlock::Point& p = block.point[k];
+  put(p.wA, l, Vec3::Zero());
+  put(p.wB, l, Vec3::Zero());
+  block.gap[k][l] = 1;
+  block.held[k][l] = p.lambda[l] = p.inverse[l] = 0;
+}
+
+// The part of what a contact carried at the start that it carries without giving way: no more than
+// of what it carries now.
+double heldPart(const KeptContact& c) {
+  double held = 0, carried = 0;
+  for (int k = 0; k < c.count; ++k) {
+    held += c.held[k];
+    carried += c.lambda[k];
+  }
+  return held > 0 ? kHeld * std::min(1.0, carried / (c.step * c.step * held)) : 0;
+}
+
+// Normal, arms, gaps and loads of lane l: kept multipliers are scaled, and those of the start by
+// `held`.
+void fillPoints(const KeptContact& c, std::span<const Pose> pose, double scale, double held,
+                ContactBlock& block, int l) {
+  const Vec3 n = normalOf(c, pose), apart = pose[c.a].x - pose[c.b].x;
+  const Mat3 rotationA = pose[c.a].q.toRotationMatrix(), rotationB = pose[c.b].q.toRotationMatrix();
+  put(block.n, l, n);
+  for (int k = 0; k < block.points; ++k) {
+    ContactBlock::Point& p = block.point[k];
+    if (k >= c.count) {
+      emptyPoint(block, k, l);
+      continue;
+    }
+    const ContactPoint& shape = c.points[k];
+    const Vec3 onA = rotationA * shape.coreA - shape.radiusA * n;  // from a's centre
+    const Vec3 onB = rotationB * shape.coreB + shape.radiusB * n;  // from b's
+    const Vec3 gap = apart + onA - onB, half = 0.5 * gap;
+    put(p.wA, l, onA - half);
+    put(p.wB, l, onB + half);
+    block.gap[k][l] = static_cast<float>(gap.dot(n));
+    p.lambda[l] = static_cast<float>(scale * c.lambda[k]);
+    block.held[k][l] = static_cast<float>(held * c.held[k]);
+    p.inverse[l] = 1;
+  }
+}
+
+}  // namespace
+
+// Rows of a block at the present poses, for substeps of h.
+void SmallSteps::Impl::fill(const Model& w, double h, ContactBlock& block) const {
+  const Bodies& b = w.bodies;
+  static const Softness between = softness(kPeriods, kDamping);
+  static const Softness against = softness(2 * kPeriods, kDamping / 2);
+  for (int l = 0; l < ContactBlock::kLanes; ++l) {
+    if (block.contact[l] < 0) {
+      emptyLane(block, l);
+      for (int k = 0; k < block.points; ++k) emptyPoint(block, k, l);
+      continue;
+    }
+    const KeptContact& c = contacts[block.contact[l]];
+    const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
+    block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
+    block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
+    const bool bothMove = b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0;
+    const Softness& soft = bothMove ? between : against;
+    block.scale[l] = soft.scale;
+    block.rate[l] = soft.rate;
+    block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
+    block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
+    block.twist[l] = static_cast<float>(scale * c.twist);
+    block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
+    block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
+    block.change[l] = static_cast<float>(scale * c.tangential.z());
+    fillPoints(c, b.pose, scale, h * h * heldPart(c), block, l);
+  }
+}
+
+void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
+  w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
+    for (int s = std::max(from, 1); s < to; ++s) {
+      batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
+      LaneMotion& motion = batch.motions[s];
+      for (int k = 0; k < 3; ++k) motion.du[k] = motion.dturn[k] = 0;
+    }
+  });
+  const float reach = static_cast<float>(w.settings.contact->margin);
+  w.workers.forEachChunk(
+      static_cast<int>(batch.blocks.size()), kLeastBlocks, [&](int from, int to) {
+        for (int i = from; i < to; ++i) fill(w, h, batch.blocks[i]);
+        contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), reach);
+      });
+}
+
+// Multipliers from the lanes to the contacts that are kept.
+void SmallSteps::Impl::takeOver(Model& w, Batch& batch, double h) {
+  physics::takeOver(batch.softRows, batch.soft);
+  w.workers.forEachChunk(static_cast<int>(batch.blocks.size()), kLeastBlocks,
+                         [&](int from, int to) {
+                           for (int i = from; i < to; ++i) takeOver(batch.blocks[i], h);
+                         });
+}
+
+void SmallSteps::Impl::takeOver(const ContactBlock& block, double h) {
+  for (int l = 0; l < ContactBlock::kLanes; ++l) {
+    if (block.contact[l] < 0) continue;
+    KeptContact& c = contacts[block.contact[l]];
+    const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
+    for (int k = 0; k < c.count; ++k) {
+      // One that touched when it was first seen has carried its load before.
+      const bool stood = c.step == 0 && block.gap[k][l] <= 0;
+      c.before[k] = stood ? block.point[k].lambda[l] : scale * c.lambda[k];
+      c.lambda[k] = block.point[k].lambda[l];
+    }
+    c.tangential.setZero();
+    for (const auto& t : block.tangent) {
+      c.tangential += double(t.lambda[l]) * Vec3(t.d[0][l], t.d[1][l], t.d[2][l]);
+    }
+    c.twist = block.twist[l];
+    c.step = h;
+  }
+}
+
+}  // namespace physics

@@ -1,0 +1,178 @@
+// What steps together: articulations by constraints, islands by contacts as well, batches of
+// islands with as many substeps.
+#include <algorithm>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+
+void SmallSteps::clear(Batch& batch) {
+  batch.bodies.clear();
+  batch.contacts.clear();
+  batch.articulations.clear();
+  batch.deformables.clear();
+  batch.softPairs.clear();
+  batch.soft.clear();
+  batch.softRows.clear();
+  batch.motions.clear();
+  batch.masses.clear();
+  batch.slots.clear();
+}
+
+// Bodies that constraints join make an articulation; points, and what has a factor that would fill
+// up, a deformable.
+void SmallSteps::Impl::learn(Model& w) {
+  makeRoom(w.bodies.pose.size());
+  if (known && articulationOf.size() == w.bodies.pose.size()) return;
+  known = true;
+  for (BodyId i = 0; i < w.bodies.size(); ++i) radius[i] = boundingRadius(w.bodies.shape[i]);
+  const Islands& joined = jointIslands(w);
+  std::vector<std::vector<JointRef>> rows(joined.size());
+  std::vector<BodyId> roots;
+  int place = 0;
+  forEachKind(w.kinds, [&](const auto& kind) {
+    for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
+      const BodyId mover = moverOf(kind.set.items[k], w.bodies);
+      if (mover == kWorldBody) continue;
+      auto& list = rows[joined[mover]];
+      if (list.empty()) roots.push_back(joined[mover]);
+      list.push_back({place, static_cast<int>(k)});
+    }
+    ++place;
+  });
+  std::sort(roots.begin(), roots.end());
+  articulations.clear();
+  deformables.clear();
+  topologies.clear();
+  articulationOf.assign(w.bodies.pose.size(), -1);
+  deformableOf.assign(w.bodies.pose.size(), -1);
+  for (const BodyId root : roots) {
+    const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
+    const bool isDirect = mesh.fill <= (mesh.points ? kMostFillOfPoints : kMostFill);
+    if (mesh.points || !isDirect) {
+      deformables.emplace_back(rows[root], w.kinds, w.bodies.inverse, isDirect);
+      for (const BodyId i : deformables.back().bodies()) {
+        deformableOf[i] = static_cast<int>(deformables.size()) - 1;
+      }
+    } else {
+      articulations.emplace_back(rows[root], w.kinds, w.bodies.inverse, topologies);
+      for (const BodyId i : articulations.back().bodies()) {
+        articulationOf[i] = static_cast<int>(articulations.size()) - 1;
+      }
+    }
+  }
+}
+
+SmallSteps::Batch& SmallSteps::Impl::batchFor(int count, int sweepCount) {
+  for (std::size_t k = 0; k < batchCount; ++k) {
+    if (batches[k].substeps == count && batches[k].sweeps == sweepCount) return batches[k];
+  }
+  if (batchCount == batches.size()) batches.emplace_back();
+  Batch& batch = batches[batchCount++];
+  clear(batch);
+  batch.substeps = count;
+  batch.sweeps = sweepCount;
+  return batch;
+}
+
+// The end of a point or link that moves.
+BodyId SmallSteps::Impl::softMoverOf(const Model& w, const SoftPair& pair) const {
+  const SoftElement& element = w.softCollider.element(pair.element);
+  return isMovable(w.bodies, element.from) ? element.from : element.to;
+}
+
+void SmallSteps::Impl::joinSoft(const Model& w, const SoftPair& pair) {
+  const SoftElement& element = w.softCollider.element(pair.element);
+  join(w.bodies, islands, element.from, element.to);
+  join(w.bodies, islands, softMoverOf(w, pair), pair.body);
+}
+
+bool SmallSteps::Impl::softStepsNow(const Model& w, const SoftPair& pair) const {
+  return steps[softMoverOf(w, pair)] && (!isMovable(w.bodies, pair.body) || steps[pair.body]);
+}
+
+// Of those that step now: islands by constraints and contacts, and the batch that each steps with.
+void SmallSteps::Impl::divide(Model& w) {
+  const Bodies& b = w.bodies;
+  const auto bodyOf = [&](const KeptContact& c) { return isMovable(b, c.a) ? c.a : c.b; };
+  const auto waits = [&](BodyId i) { return isMovable(b, i) && !steps[i]; };
+  const auto stepsNow = [&](const KeptContact& c) { return !waits(c.a) && !waits(c.b); };
+  stepping.clear();
+  for (const BodyId i : b.active) {
+    if (steps[i]) stepping.push_back(i);
+  }
+  islands = jointIslands(w);
+  for (const KeptContact& c : contacts) {
+    if (stepsNow(c)) join(b, islands, c.a, c.b);
+  }
+  for (const SoftPair& pair : softPairs) {
+    if (softStepsNow(w, pair)) joinSoft(w, pair);
+  }
+  settle(islands, stepping);
+  for (const BodyId i : stepping) {
+    batchOf[i] = -1;
+    energy[i] = 0;  // bodies of the island that something holds
+    substeps[i] = std::max(1, w.settings.substeps);
+    sweeps[i] = 1;
+  }
+  for (const BodyId i : stepping) {
+    const BodyId root = islands[i];
+    substeps[root] = std::max(substeps[root], asked[i]);
+    sweeps[root] = std::max(sweeps[root], askedSweeps[i]);
+    if (articulationOf[i] >= 0 || deformableOf[i] >= 0) energy[root] = 1;
+  }
+  for (const KeptContact& c : contacts) {
+    if (stepsNow(c)) energy[islands[bodyOf(c)]] = 1;
+  }
+  for (const SoftPair& pair : softPairs) {
+    if (softStepsNow(w, pair)) energy[islands[softMoverOf(w, pair)]] = 1;
+  }
+  assign();
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (!stepsNow(contacts[k])) continue;
+    batches[batchOf[bodyOf(contacts[k])]].contacts.push_back(static_cast<int>(k));
+  }
+  assignSoft(w);
+}
+
+// Contacts of points and links to the batch of their island; those that wait stay with the world.
+void SmallSteps::Impl::assignSoft(Model& w) {
+  for (const SoftPair& pair : softPairs) {
+    if (softStepsNow(w, pair)) batches[batchOf[softMoverOf(w, pair)]].softPairs.push_back(pair);
+  }
+  std::erase_if(w.softContacts, [&](const SoftContact& c) {
+    const BodyId body = isMovable(w.bodies, c.from) ? c.from : c.to;
+    if (!steps[body]) return false;
+    if (batchOf[body] >= 0) batches[batchOf[body]].soft.push_back(c);
+    return true;
+  });
+}
+
+// Bodies to the batch of their island.
+void SmallSteps::Impl::assign() {
+  batchCount = 0;
+  free.clear();
+  for (const BodyId i : stepping) {
+    const BodyId root = islands[i];
+    if (energy[root] == 0) {
+      free.push_back(i);
+      continue;
+    }
+    if (batchOf[root] < 0) {
+      batchOf[root] = static_cast<int>(&batchFor(substeps[root], sweeps[root]) - batches.data());
+    }
+    batchOf[i] = batchOf[root];
+    substeps[i] = substeps[root];
+    batches[batchOf[i]].bodies.push_back(i);
+    const int articulation = articulationOf[i];
+    if (articulation >= 0 && articulations[articulation].bodies().front() == i) {
+      batches[batchOf[i]].articulations.push_back(articulation);
+    }
+    const int deformable = deformableOf[i];
+    if (deformable >= 0 && deformables[deformable].bodies().front() == i) {
+      batches[batchOf[i]].deformables.push_back(deformable);
+    }
+  }
+}
+
+}  // namespace physics

@@ -1,0 +1,151 @@
+// The default method: the step, and how many substeps and sweeps the next one takes.
+#include "physics/small_steps/small_steps.h"
+
+#include <algorithm>
+
+#include "physics/model/finite.h"
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+
+SmallSteps::SmallSteps() : impl_(std::make_unique<Impl>()) {}
+SmallSteps::~SmallSteps() = default;
+SmallSteps::SmallSteps(SmallSteps&&) noexcept = default;
+SmallSteps& SmallSteps::operator=(SmallSteps&&) noexcept = default;
+
+std::vector<KeptContact>& SmallSteps::contacts() { return impl_->contacts; }
+const std::vector<KeptContact>& SmallSteps::contacts() const { return impl_->contacts; }
+void SmallSteps::topologyChanged() { impl_->known = false; }
+int SmallSteps::substepsOf(BodyId body) const {
+  return body < static_cast<BodyId>(impl_->substeps.size()) ? impl_->substeps[body] : 1;
+}
+void SmallSteps::forget() {
+  impl_->contacts.clear();
+  sleeping.clear();
+  impl_->known = false;
+  impl_->fresh = true;
+  std::fill(impl_->asked.begin(), impl_->asked.end(), 0);
+  std::fill(impl_->askedSweeps.begin(), impl_->askedSweeps.end(), 1);
+}
+
+std::size_t SmallSteps::bytes() const {
+  std::size_t sum = (impl_->contacts.capacity() + impl_->before.capacity()) * sizeof(KeptContact);
+  for (const Batch& batch : impl_->batches) {
+    sum += batch.blocks.capacity() * sizeof(ContactBlock) +
+           batch.motions.capacity() * sizeof(LaneMotion);
+  }
+  return sum;
+}
+
+bool takesSmallSteps(const Model& w) {
+  return w.settings.method == Method::kSmallSteps && w.settings.stepping == Stepping::kPaper;
+}
+
+void SmallSteps::Impl::makeRoom(std::size_t bodies) {
+  substeps.resize(bodies, 1);
+  sweeps.resize(bodies, 1);
+  asked.resize(bodies, 0);
+  askedSweeps.resize(bodies, 1);
+  batchOf.resize(bodies);
+  slotOf.resize(bodies);
+  halved.resize(bodies);
+  steps.resize(bodies);
+  colours.resize(bodies);
+  coloursFixed.resize(bodies);
+  inertiaOf.resize(bodies);
+  masses.resize(bodies);
+  moved.resize(bodies);
+  stiffness.resize(bodies, Mat3::Zero());
+  radius.resize(bodies);
+  inertias.resize(bodies);
+  spins.resize(bodies);
+  load.resize(bodies);
+  sag.resize(bodies);
+  energy.resize(bodies);
+  change.resize(bodies);
+}
+
+// Those that step now, one of `parts` of a step: islands, batches, and each batch through its
+// substeps.
+void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
+  const double dt = w.settings.dt / parts;
+  divide(w);
+  fly(w, dt);
+  report.work.moves += static_cast<std::int64_t>(free.size());
+  for (std::size_t k = 0; k < batchCount; ++k) {
+    Batch& batch = batches[k];
+    const int count = (batch.substeps + parts - 1) / parts;
+    const double h = dt / count;
+    report.substeps = std::max(report.substeps, parts * count);
+    layOut(w, batch);
+    batch.joints.take(articulations, batch.articulations);
+    for (int i = 0; i < count; ++i) {
+      predict(w, batch, h, i == 0);
+      const bool turned = i > 0 && turnedFar(batch);
+      if (turned) takeOver(w, batch, h);
+      if ((i == 0 || turned) && !batch.blocks.empty()) rows(w, batch, h);
+      lookAgain(w, batch, h);
+      noteApproach(w, batch, h);
+      substep(w, batch, h, report);
+    }
+    takeOver(w, batch, h);
+    ask(w, batch, h);
+    batch.joints.finish(w.kinds, h);
+    for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
+    report.work.moves += static_cast<std::int64_t>(batch.bodies.size()) * count;
+  }
+  gatherSoft(w);
+  checkFinite(w, report);
+}
+
+// Islands with a body that moves by more than contacts are watched within step in two halves, with
+// another look in the middle, and so do those that they meet there. The others step in one go.
+void SmallSteps::Impl::advance(Model& w, StepReport& report) {
+  std::fill(halved.begin(), halved.end(), 0);  // of those as well that this step wakes
+  look(w);
+  bool some = chooseFast(w);
+  for (const bool again : {false, true}) {
+    if (!some) break;
+    advancePart(w, 2, report);
+    if (report.notFinite) return;
+    for (const BodyId i : w.bodies.active) halved[i] = halved[i] || steps[i];
+    if (again) break;  // these are slow: what was found of them before holds
+    look(w);
+    some = chooseMet(w);
+  }
+  for (const int parts : {1, 2}) {
+    if (!choose(w, parts)) continue;
+    advancePart(w, parts, report);
+    if (report.notFinite) return;
+  }
+}
+
+// Where nothing is known of what contacts carry, steps are trials for the one that counts, as many
+// as the load needs to find its way down. Always as many: no island is to know of another.
+void SmallSteps::Impl::learnLoads(Model& w) {
+  constexpr int kTrials = 16;
+  const Bodies& b = w.bodies;
+  fresh = false;
+  const std::vector<Pose> pose = b.pose;
+  const std::vector<Velocity> velocity = b.velocity;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    StepReport unused;
+    advance(w, unused);
+    w.bodies.pose = pose;
+    w.bodies.velocity = velocity;
+    for (Articulation& articulation : articulations) articulation.forget();
+    if (contacts.empty() || unused.notFinite) return;
+  }
+  for (KeptContact& c : contacts) {
+    for (int k = 0; k < c.count; ++k) c.held[k] = c.lambda[k] / (c.step * c.step);
+  }
+}
+
+void SmallSteps::step(Model& w, const std::function<void()>& wake, StepReport& report) {
+  impl_->wake = &wake;
+  impl_->learn(w);
+  if (impl_->fresh && w.touches) impl_->learnLoads(w);
+  impl_->advance(w, report);
+}
+
+}  // namespace physics

@@ -1,0 +1,184 @@
+// What the default method keeps and works with. Private to physics/small_steps: one file per part
+// of it.
+//   divide.cpp        articulations, islands, and the batches that they step in
+//   contact_rows.cpp  contacts into the lanes that sweep over them, and back
+//   contact_motion.cpp  bodies into these lanes, and back
+//   substep.cpp       a substep of a batch
+//   fly.cpp           bodies that nothing holds
+//   bounce.cpp        restitution
+//   look.cpp          the contacts of a step, and which islands look for them twice
+//   ask.cpp           how many substeps and sweeps the next step takes
+//   small_steps.cpp   the step
+#pragma once
+
+#include <algorithm>
+
+#include "physics/model/model.h"
+#include "physics/small_steps/small_steps.h"
+#include "physics/solver/articulation.h"
+#include "physics/solver/contact_block.h"
+#include "physics/solver/deformable.h"
+#include "physics/solver/soft_rows.h"
+
+namespace physics {
+
+// Blocks that follow each other. `shared`: they are of one colour, and may be swept at a time.
+struct BlockRun {
+  int first = 0, count = 0;
+  bool shared = false;
+};
+
+// What turns a body. Given: nothing, nor moves it. None: it is a point. Round: in every direction
+// the same.
+enum class Inertia : char { kGiven, kNone, kRound, kOther };
+
+struct LaneStart {
+  float u[3] = {}, turn[3] = {};
+};
+
+// What pays for being dealt to threads.
+constexpr int kLeastBodies = 64, kLeastBlocks = 8;
+
+// Islands of equal substeps and sweeps, which step side by side.
+struct SmallSteps::Batch {
+  int substeps = 1, sweeps = 1;
+  std::vector<BodyId> bodies;
+  std::vector<int> contacts, articulations, deformables;
+  JointPacks joints;                // of these articulations
+  std::vector<SoftPair> softPairs;  // what points and links may meet in this step
+  std::vector<SoftContact> soft, softBefore;
+  std::vector<SoftRow> softRows;
+  Contacts impacts;  // with restitution only: the pairs of `contacts`, for one substep
+  std::vector<ContactBlock> blocks;
+  std::vector<BlockRun> runs;       // all of them, in order
+  std::vector<LaneMotion> motions;  // by slot; 0 is what does not move
+  std::vector<LaneStart> before;    // of the motions, when the bodies last knew of them
+  std::vector<LaneMass> masses;
+  std::vector<BodyId> slots;  // the body of each slot
+
+  // More than contacts of rigid bodies.
+  bool isMixed() const {
+    return !articulations.empty() || !deformables.empty() || !softRows.empty();
+  }
+};
+
+LaneMass laneMassOf(const JointMass& mass);
+
+struct SmallSteps::Impl {
+  std::vector<KeptContact> contacts, before;
+  std::vector<Articulation> articulations;
+  JointTopologies topologies;
+  std::vector<Deformable> deformables;
+  std::vector<int> articulationOf, deformableOf;  // by body, -1: none
+  bool known = false;                             // these are those of the world's constraints
+  std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
+  std::vector<int> asked, askedSweeps;
+  std::vector<Batch> batches;
+  std::size_t batchCount = 0;
+  Islands islands;
+  std::vector<char> halved, steps;                   // by body: made half of its step; steps now
+  std::vector<BodyId> stepping;                      // those that step now
+  std::vector<int> batchOf, slotOf;                  // by body
+  std::vector<std::uint64_t> colours, coloursFixed;  // by body: taken by its contacts
+  std::vector<int> placeOf;                          // scratch, of a batch's contacts
+  std::vector<Inertia> inertiaOf;                    // by body, of this step
+  std::vector<JointMass> masses;
+  std::vector<Displacement> moved;
+  std::vector<Mat3> stiffness;
+  std::vector<Mat3> inertias;  // world, at X^t, and the turn without joints and contacts: of those
+  std::vector<Vec3> spins;     // whose inertia turns with them
+  std::vector<double> radius;  // by body, of its shape
+  std::vector<double> load, sag, energy, change;  // by body (island: by its first)
+
+  void learn(Model& w);
+  void makeRoom(std::size_t bodies);
+  void look(Model& w);
+  bool lookOnce(Model& w);
+  bool chooseFast(Model& w);
+  bool chooseMet(Model& w);
+  bool choose(const Model& w, int parts);
+  void spread(Model& w);
+  void divide(Model& w);
+  void assign();
+  Batch& batchFor(int substeps, int sweeps);
+  int colourOf(const Bodies& b, const KeptContact& c);
+  void takeSlots(Batch& batch);
+  void layOut(Model& w, Batch& batch);
+  BodyId softMoverOf(const Model& w, const SoftPair& pair) const;
+  void joinSoft(const Model& w, const SoftPair& pair);
+  bool softStepsNow(const Model& w, const SoftPair& pair) const;
+  void assignSoft(Model& w);
+  bool lookSoft(Model& w);
+  void gatherSoft(Model& w);
+  void lookAgain(Model& w, Batch& batch, double h);
+  void predict(Model& w, Batch& batch, double h, bool first);
+  void predictBody(Model& w, BodyId i, double h, bool first);
+  void predictTurn(Model& w, BodyId i, double h, bool first);
+  void toLane(Batch& batch, int slot);
+  void fromLane(Batch& batch, int slot);
+  void toLanes(Model& w, Batch& batch);
+  void fromLanes(Model& w, Batch& batch);
+  void sweepContactPositions(Model& w, Batch& batch, double h);
+  void sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which);
+  void displaceBody(Model& w, BodyId i, double h);
+  template <class F>
+  static void forEachColour(Model& w, Batch& batch, F&& f);
+  void displaceAll(Model& w, Batch& batch, double h);
+  template <class F>
+  static void forEachLane(const Batch& batch, F&& f);
+  void noteApproach(Model& w, Batch& batch, double h);
+  void bounce(Model& w, Batch& batch, double h);
+  void solvePositions(Model& w, Batch& batch, double h);
+  void sweepDeformables(Model& w, Batch& batch, double h);
+  void solveVelocities(Model& w, Batch& batch, double h);
+  void sweepSoft(Batch& batch);
+  void substep(Model& w, Batch& batch, double h, StepReport& report);
+  bool turnedFar(const Batch& batch) const;
+  void takeOver(Model& w, Batch& batch, double h);
+  void takeOver(const ContactBlock& block, double h);
+  void weighMotion(const Model& w, const Batch& batch, double h);
+  void weighContacts(const Model& w, const Batch& batch);
+  void askSoft(const Model& w, const Batch& batch);
+  void askDeformables(Model& w, const Batch& batch, double h);
+  void ask(Model& w, const Batch& batch, double h);
+  void fly(Model& w, double dt);
+  void advancePart(Model& w, int parts, StepReport& report);
+  void advance(Model& w, StepReport& report);
+  void learnLoads(Model& w);
+  const std::function<void()>* wake = nullptr;  // of the present step
+  bool fresh = true;  // nothing has stepped yet, or the state came from elsewhere
+  void fill(const Model& w, double h, ContactBlock& block) const;
+  void rows(Model& w, Batch& batch, double h);
+  std::vector<SoftPair> softPairs;
+  std::vector<BodyId> free;
+};
+
+// f(blocks, count) of what may be swept at a time, in order.
+template <class F>
+void SmallSteps::Impl::forEachColour(Model& w, Batch& batch, F&& f) {
+  ContactBlock* const blocks = batch.blocks.data();
+  if (w.workers.count() == 1) return f(blocks, static_cast<int>(batch.blocks.size()));
+  for (const BlockRun& run : batch.runs) {
+    if (!run.shared) {
+      f(blocks + run.first, run.count);
+      continue;
+    }
+    w.workers.forEachChunk(run.count, kLeastBlocks,
+                           [&](int from, int to) { f(blocks + run.first + from, to - from); });
+  }
+}
+
+// f(block, lane, place of the contact in batch.contacts) of every lane that has a contact.
+template <class F>
+void SmallSteps::Impl::forEachLane(const Batch& batch, F&& f) {
+  for (const ContactBlock& block : batch.blocks) {
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
+      const auto found =
+          std::lower_bound(batch.contacts.begin(), batch.contacts.end(), block.contact[l]);
+      f(block, l, static_cast<int>(found - batch.contacts.begin()));
+    }
+  }
+}
+
+}  // namespace physics

@@ -1,0 +1,287 @@
+// One substep of a batch: predict, positions, displace, velocities.
+#include <Eigen/LU>
+
+#include "physics/base/profile.h"
+#include "physics/motion/free_motion.h"
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+namespace {
+
+constexpr int kPositionSweeps = 4;  // of what is swept
+
+// omega and half a substep on, by I^-1 (-omega x I omega).
+Vec3 meanSpin(const Mat3& inertia, const Mat3& inverse, const Vec3& omega, double h) {
+  return omega - 0.5 * h * (inverse * omega.cross(inertia * omega));
+}
+
+Mat3 worldInertia(const Mat3& r, const Vec3& principal) {
+  const Mat3 scaled = r * principal.asDiagonal();
+  return scaled * r.transpose();
+}
+
+Inertia kindOfInertia(const Bodies& b, BodyId i) {
+  if (b.motion[i] != Motion::kDynamic) return Inertia::kGiven;
+  if (b.inverseInertia[i].isZero(0)) return Inertia::kNone;
+  return isIsotropic(b.inertia[i]) ? Inertia::kRound : Inertia::kOther;
+}
+
+}  // namespace
+
+// u = h v + h^2 M^-1 f, with the inertia at X^t and, where joints pull, their geometric stiffness.
+void SmallSteps::Impl::predict(Model& w, Batch& batch, double h, bool first) {
+  for (const int k : batch.articulations) {
+    for (const BodyId i : articulations[k].bodies()) stiffness[i].setZero();
+  }
+  batch.joints.stiffen(stiffness);
+  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
+                         [&](int from, int to) {
+                           for (int k = from; k < to; ++k) {
+                             predictBody(w, batch.bodies[k], h, first);
+                           }
+                         });
+}
+
+void SmallSteps::Impl::predictBody(Model& w, BodyId i, double h, bool first) {
+  Bodies& b = w.bodies;
+  Displacement& m = moved[i];
+  Velocity& v = b.velocity[i];
+  b.start[i] = b.pose[i];
+  if (first) inertiaOf[i] = kindOfInertia(b, i);
+  if (inertiaOf[i] == Inertia::kGiven) {
+    m = {h * v.v, h * v.w};
+    masses[i] = {};
+    return;
+  }
+  if (w.settings.gravity) v.v += h * *w.settings.gravity;
+  const bool isLoaded = !w.loaded.empty();
+  if (isLoaded) v.v += h * b.inverse[i].m * w.loads[i].force;
+  m.u = h * v.v;
+  if (first) masses[i].inverse = b.inverse[i].m;
+  if (inertiaOf[i] == Inertia::kNone) {
+    m.theta = h * v.w;
+    masses[i].inertia.setZero();
+    return;
+  }
+  if (inertiaOf[i] == Inertia::kRound && !first && !isLoaded && articulationOf[i] < 0) {
+    m.theta = h * v.w;  // masses[i] holds what it held
+    return;
+  }
+  predictTurn(w, i, h, first);
+}
+
+void SmallSteps::Impl::predictTurn(Model& w, BodyId i, double h, bool first) {
+  Bodies& b = w.bodies;
+  Displacement& m = moved[i];
+  Velocity& v = b.velocity[i];
+  const bool isRound = inertiaOf[i] == Inertia::kRound;
+  const Mat3 r = isRound ? Mat3::Identity() : b.pose[i].q.toRotationMatrix();
+  // After the first substep it stands there: of the pose that the last one ended with.
+  const Mat3 inverse = !first ? masses[i].inertia : worldInertia(r, b.inverseInertia[i]);
+  v.w += h * (inverse * w.loads[i].torque);
+  masses[i].inertia = inverse;
+  Vec3 omega = v.w;
+  if (isRound && (articulationOf[i] < 0 || stiffness[i].isZero(0))) {
+    m.theta = h * omega;
+    return;
+  }
+  const Mat3 inertia = worldInertia(r, b.inertia[i]);
+  if (!isRound) omega = meanSpin(inertia, inverse, omega, h);
+  m.theta = h * omega;
+  inertias[i] = inertia;
+  spins[i] = m.theta;
+  if (articulationOf[i] >= 0 && !stiffness[i].isZero(0)) {
+    masses[i].inertia = (inertia + stiffness[i]).inverse();
+  }
+}
+
+// Contacts of points and links are looked for anew in every substep: their planes turn quickly.
+void SmallSteps::Impl::lookAgain(Model& w, Batch& batch, double h) {
+  if (batch.softPairs.empty()) {
+    batch.soft.clear();
+    return;
+  }
+  profileScope("soft_contact");
+  Bodies& b = w.bodies;
+  for (const BodyId i : batch.bodies) {
+    w.ahead[i] = b.start[i];
+    displace(w.ahead[i], moved[i].u, moved[i].theta);
+  }
+  std::swap(batch.soft, batch.softBefore);
+  const auto touches =
+      w.softCollider.find(batch.softPairs, b.pose, w.ahead, w.settings.contact->margin);
+  startSoftContacts(touches, w.softCollider, b, batch.soft);
+  keepSoft(batch.softBefore, h, batch.soft);
+  prepareSoftRows(batch.soft, b.pose, masses, batch.softRows);
+}
+
+// X <- X + u. Contacts alone leave the lanes as they are, but where a turn of inertia changes them.
+void SmallSteps::Impl::displaceAll(Model& w, Batch& batch, double h) {
+  const bool inLanes = !batch.blocks.empty(), alone = inLanes && !batch.isMixed();
+  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
+                         [&](int from, int to) {
+                           for (int k = from; k < to; ++k) {
+                             const BodyId i = batch.bodies[k];
+                             if (alone) fromLane(batch, k + 1);
+                             displaceBody(w, i, h);
+                             if (!inLanes) continue;
+                             LaneMotion& lane = batch.motions[k + 1];
+                             for (int c = 0; c < 3; ++c) {
+                               lane.du[c] += lane.u[c];
+                               lane.dturn[c] += lane.turn[c];
+                             }
+                             if (alone && inertiaOf[i] == Inertia::kOther) toLane(batch, k + 1);
+                           }
+                         });
+}
+
+// Angular momentum is kept while the inertia turns.
+void SmallSteps::Impl::displaceBody(Model& w, BodyId i, double h) {
+  Bodies& b = w.bodies;
+  Displacement& m = moved[i];
+  displace(b.pose[i], m.u, m.theta);
+  b.pose[i].q.normalize();
+  if (inertiaOf[i] == Inertia::kGiven || inertiaOf[i] == Inertia::kNone) return;
+  if (inertiaOf[i] == Inertia::kRound) {
+    if (articulationOf[i] >= 0) {
+      masses[i].inertia = b.inverseInertia[i].x() * Mat3::Identity();
+    }
+    return;
+  }
+  const Vec3 given = m.theta - spins[i];
+  const Vec3 momentum = inertias[i] * (h * b.velocity[i].w + given);
+  masses[i].inertia = worldInertia(b.pose[i].q.toRotationMatrix(), b.inverseInertia[i]);
+  m.theta = masses[i].inertia * momentum;
+}
+
+// Positions of deformables and their contacts.
+void SmallSteps::Impl::sweepDeformables(Model& w, Batch& batch, double h) {
+  if (batch.deformables.empty() && batch.softRows.empty()) return;
+  const double push = w.settings.contact ? w.settings.contact->maxSeparationSpeed * h : 0;
+  const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
+  for (const int k : batch.deformables) {
+    if (deformables[k].isDirect()) {
+      deformables[k].solvePositions(stage, push, batch.softRows);
+    } else {
+      deformables[k].evaluate(stage, true);
+    }
+  }
+  warmStart(batch.softRows, moved);
+  for (int s = 0; s < kPositionSweeps; ++s) {
+    for (const int k : batch.deformables) {
+      if (!deformables[k].isDirect()) deformables[k].sweepPositions(moved);
+    }
+    physics::sweepPositions(batch.softRows, push, moved);
+  }
+}
+
+// Contacts alone, in the lanes: colour by colour.
+void SmallSteps::Impl::sweepContactPositions(Model& w, Batch& batch, double h) {
+  const float push = static_cast<float>(w.settings.contact->maxSeparationSpeed * h);
+  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
+    contactKernels().warmStart(blocks, count, batch.motions.data());
+  });
+  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
+    contactKernels().sweepPositions(blocks, count, batch.motions.data(), push);
+  });
+}
+
+void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which) {
+  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
+    contactKernels().sweepVelocities(blocks, count, batch.motions.data(), which);
+  });
+}
+
+// Joints, contacts, joints: the last ones leave contacts open by little, and joints not at all.
+void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
+  const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
+  const int count = static_cast<int>(batch.blocks.size());
+  profileScope("direct");
+  if (w.settings.maxCorrectionSpeed) batch.joints.leave(stage, h * *w.settings.maxCorrectionSpeed);
+  batch.joints.solvePositions(stage, true);
+  if (count > 0) {
+    profileScope("contact");
+    toLanes(w, batch);
+    sweepContactPositions(w, batch, h);
+    if (batch.isMixed()) fromLanes(w, batch);
+  }
+  sweepDeformables(w, batch, h);
+  profileScope("direct");
+  if (count > 0) {
+    batch.joints.solvePositions(stage, false);
+  } else {
+    batch.joints.closePositions(stage);
+  }
+  if (count > 0 && batch.isMixed()) toLanes(w, batch);
+}
+
+// Of what is swept one by one.
+void SmallSteps::Impl::sweepSoft(Batch& batch) {
+  sweepVelocities(batch.softRows, moved);
+  for (const int k : batch.deformables) deformables[k].sweepVelocities(moved);
+  sweepVelocities(batch.softRows, moved);
+}
+
+void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
+  const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
+  const int count = static_cast<int>(batch.blocks.size());
+  profileScope("direct");
+  batch.joints.prepareVelocities(stage);
+  batch.joints.solveVelocities(stage);
+  for (const int k : batch.deformables) {
+    deformables[k].prepareVelocities(w.kinds, {w.bodies.pose, w.bodies.start, h}, masses);
+  }
+  measure(batch.softRows, moved);
+  const bool isMixed = batch.isMixed();
+  if (count > 0 && isMixed) toLanes(w, batch);
+  for (int s = 0; s < batch.sweeps; ++s) {
+    if (count > 0) {
+      profileScope("contact");
+      sweepContactVelocities(w, batch, {.first = s == 0, .last = s + 1 == batch.sweeps});
+      if (!isMixed) continue;
+      fromLanes(w, batch);
+    } else if (batch.deformables.empty() && batch.softRows.empty()) {
+      batch.joints.refineVelocities(stage);
+      break;  // joints alone are solved
+    }
+    profileScope("direct");
+    sweepSoft(batch);
+    batch.joints.solveVelocities(stage);
+    if (count > 0 && s + 1 < batch.sweeps) toLanes(w, batch);
+  }
+}
+
+void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& report) {
+  Bodies& b = w.bodies;
+  solvePositions(w, batch, h);
+  profileScope("motion");
+  displaceAll(w, batch, h);
+  solveVelocities(w, batch, h);
+  profileScope("motion");
+  const bool alone = !batch.blocks.empty() && !batch.isMixed();
+  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
+                         [&](int from, int to) {
+                           for (int k = from; k < to; ++k) {
+                             const BodyId i = batch.bodies[k];
+                             if (inertiaOf[i] == Inertia::kGiven) continue;
+                             if (alone) fromLane(batch, k + 1);
+                             b.velocity[i].v = moved[i].u / h;
+                             b.velocity[i].w = moved[i].theta / h;
+                           }
+                         });
+  bounce(w, batch, h);
+  profileScope("");
+  const auto touching = static_cast<std::int64_t>(batch.contacts.size() + batch.softRows.size());
+  report.iterations += 1 + batch.sweeps;
+  report.work.contactVisits += touching * (1 + batch.sweeps);
+  report.work.frictionRows += touching * batch.sweeps;
+  report.constraintEvaluations += touching * (1 + batch.sweeps);
+  for (const int k : batch.articulations) {
+    report.constraintEvaluations += 3 * static_cast<std::int64_t>(articulations[k].size());
+  }
+  for (const int k : batch.deformables) {
+    report.constraintEvaluations += 2 * static_cast<std::int64_t>(deformables[k].size());
+  }
+}
+
+}  // namespace physics

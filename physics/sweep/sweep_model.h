@@ -1,0 +1,22 @@
+// What the sweeps of the paper's methods keep beside the model.
+#pragma once
+
+#include "physics/model/model.h"
+#include "physics/sweep/conjugate.h"
+#include "physics/sweep/joint_system.h"
+#include "physics/sweep/linear_gauss_seidel.h"
+
+namespace physics {
+
+struct SweepModel : Model {
+  Conjugate conjugate;  // scratch
+  JointSystem joints;   // this and its scratch: the direct method only
+  std::vector<JointRows> jointRows;
+  std::vector<Vec3> jointChange;
+  std::vector<JointMotion> jointMotion;
+  double jointError = 0;  // largest that the last Newton step met [m or rad]; infinite while its
+                          // active set changes
+  LinearSystem linear;    // the linear method only
+};
+
+}  // namespace physics
