@@ -91,6 +91,7 @@ ExitCode simulate(const SimulateOptions& options) {
   const ProgressMode progressMode = options.common.progressMode();
   const scenes::Scene scene = options.common.readScene();
   scenes::Simulation simulation(scene);
+  simulation.setThreads(options.common.threadCount());
   const std::filesystem::path folder = options.common.outputFolder(scene.name);
   makeFolder(folder);
   std::optional<OutputFile> trajectory, metrics;  // opened first: a long run must not end in vain

@@ -88,6 +88,8 @@ Simulation::Simulation(const Scene& scene) {
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
+void Simulation::setThreads(int count) { impl_->built.world.setThreads(count); }
+
 physics::StepReport Simulation::advance() {
   const double arrival = static_cast<double>(impl_->frame + 1) / impl_->scene.fps;
   for (const PoseScript& script : impl_->built.scripts) follow(script, arrival, impl_->built.world);

@@ -36,6 +36,9 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
+  // Threads that steps share, 1 at first: the same bytes for any number.
+  void setThreads(int count);
+
   // Applies what is scripted (pose sequences, kinematic paths) and steps to the next frame.
   physics::StepReport advance();
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -17,7 +16,7 @@ namespace physics {
 namespace {
 
 constexpr int kChunksPerThread = 4;
-constexpr auto kPatience = std::chrono::microseconds(50);  // of spinning before sleep
+constexpr int kPatience = 1 << 11;  // looks before sleep, some 50 us
 
 std::uint64_t claimOf(std::uint32_t round, int next, int end) {
   return std::uint64_t{round} << 32 | static_cast<std::uint64_t>(next) << 16 |
@@ -88,14 +87,11 @@ struct Workers::Impl {
 
   // A round after `seen`.
   std::uint32_t waitFor(std::uint32_t seen) {
-    const auto start = std::chrono::steady_clock::now();
-    do {
-      for (int k = 0; k < 64; ++k) {
-        const std::uint32_t now = round.load(std::memory_order_acquire);
-        if (now != seen) return now;
-        _mm_pause();
-      }
-    } while (std::chrono::steady_clock::now() - start < kPatience);
+    for (int k = 0; k < kPatience; ++k) {
+      const std::uint32_t now = round.load(std::memory_order_acquire);
+      if (now != seen) return now;
+      _mm_pause();
+    }
     round.wait(seen, std::memory_order_acquire);
     return round.load(std::memory_order_acquire);
   }

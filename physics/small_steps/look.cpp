@@ -5,6 +5,24 @@
 
 namespace physics {
 
+namespace {
+
+// Pairs are looked at by all threads: what is found of one depends on no other.
+std::span<const Manifold> findContacts(Model& w) {
+  constexpr int kLeastPairs = 64;  // of a thread
+  profileScope("broad_phase");
+  const auto pairs =
+      static_cast<int>(w.collider.prepare(w.bodies.pose, w.ahead, w.settings.contact->margin));
+  profileScope("narrow_phase");
+  w.workers.forEachChunk(pairs, kLeastPairs,
+                         [&](int from, int to) { w.collider.lookAt(from, to); });
+  const std::span<const Manifold> found = w.collider.gather();
+  profileScope("contact");
+  return found;
+}
+
+}  // namespace
+
 // Contacts from the present poses to where the bodies would be at the end of the step. False: the
 // look met bodies that sleep, which are awake now.
 bool SmallSteps::Impl::lookOnce(Model& w) {
@@ -19,7 +37,7 @@ bool SmallSteps::Impl::lookOnce(Model& w) {
   }
   if (!lookSoft(w)) return false;
   if (!w.touches) return true;
-  const auto found = w.collider.find(b.pose, w.ahead, w.settings.contact->margin);
+  const auto found = findContacts(w);
   if (w.sleep.count > 0) {
     const std::size_t called = w.sleep.called.size();
     for (const Manifold& m : found) {

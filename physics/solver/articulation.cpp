@@ -70,8 +70,8 @@ void JointPacks::solvePositions(const JointStage& stage, bool first) {
   forEach([&](auto& pack) { pack.solvePositions(stage, first); });
 }
 
-void JointPacks::closePositions(const JointStage& stage) {
-  forEach([&](auto& pack) { pack.closePositions(stage); });
+void JointPacks::closePositions(const JointStage& stage, double tolerance) {
+  forEach([&](auto& pack) { pack.closePositions(stage, tolerance); });
 }
 
 void JointPacks::prepareVelocities(const JointStage& stage) {

@@ -73,7 +73,7 @@ class JointPack {
   void stiffen(std::span<Mat3> stiffness) const;
   void leave(const JointStage& stage, double most);
   void solvePositions(const JointStage& stage, bool first);
-  void closePositions(const JointStage& stage);
+  void closePositions(const JointStage& stage, double tolerance);
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
   void refineVelocities(const JointStage& stage);
@@ -92,9 +92,13 @@ class JointPack {
   void solveOpenVelocities(const JointStage& stage);
   void see(const JointStage& stage, bool all);
   void noteSeen();
-  bool step(bool untilClosed);
+  void step();
+  void noteStep(int lane);
+  bool goBack();
   void begin();
   void chooseFree();
+  void chooseCarrying();
+  void noteCarried();
   void setFree(int row, int lane, bool free);
   void factorize();
   void factorizeStale();
@@ -111,6 +115,7 @@ class JointPack {
   std::vector<JointLanes<W>> rows_;
   std::vector<JointBlock<W>> blocks_;
   std::vector<State> states_;  // by row
+  bool began_ = false;         // a substep of this step
   Num<W> open_{};
   std::vector<char> used_;
   std::vector<int> usedBelow_, usedCounts_;
@@ -126,6 +131,10 @@ class JointPack {
   std::vector<JointBlock<W>> keptBlocks_;
   std::vector<Num<W>> keptTail_;
   std::vector<JointBody<W>> keptBodies_;
+  struct {  // where the last step of Newton's began, by row and body, and what it was off by
+    std::vector<std::array<Num<W>, 3>> lambda, u, theta;
+    std::array<double, W> off{};
+  } steps_;
 };
 
 // The articulations of a batch.
@@ -137,7 +146,8 @@ class JointPacks {
   void leave(const JointStage& stage, double most);
   // Evaluates the rows, and solves for positions: `first` begins a substep.
   void solvePositions(const JointStage& stage, bool first);
-  void closePositions(const JointStage& stage);  // as often as it takes
+  // As often as it takes until what is off is `tolerance` of the arms, before another step.
+  void closePositions(const JointStage& stage, double tolerance);
   // Evaluates at the end of the substep; then, as often as contacts are swept:
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);

@@ -37,7 +37,8 @@ struct JointFactor {
 // One constraint or force. J is by rows; that of a gap is +-1 and the cross product with `angular`.
 template <int W>
 struct JointLanes {
-  Num<W> free;  // 1: lambda is solved for; 0: it is held
+  Num<W> free;     // 1: lambda is solved for; 0: it is held
+  Num<W> carried;  // 1: of a limit, it did in the last substep
   Num<W> c[3], left[3], lambda[3], right[3];
   Num<W> linear[2][9], angular[2][9], arm[2][3];
   Num<W> fixed[kJointFixed];  // of what the kernels evaluate: see JointSeen
@@ -120,8 +121,10 @@ struct JointKernels {
   void (*factorize)(const System&);
   void (*findChanged)(const System&, bool (&changed)[W]);  // too much for the factor to serve
   void (*respond)(const System&);                          // M^-1 J^T alone
-  void (*aimAtErrors)(const System&);      // right = -(c - left + J (u - seen) + alpha lambda)
-  bool (*findOpen)(const System&);         // where what is aimed at is more than rounding
+  void (*aimAtErrors)(const System&);  // right = -(c - left + J (u - seen) + alpha lambda)
+  // Open from now on: what is aimed at is more than this part of the larger arm and the way, or
+  // rad.
+  bool (*findOpen)(const System&, double tolerance);
   void (*aimAtVelocities)(const System&);  // right = -J u
   // right <- A^-1 right; limits that would pass their bound are held there, to be so from `apply`
   // on

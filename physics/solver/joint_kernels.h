@@ -8,7 +8,6 @@
 namespace physics {
 namespace {
 
-constexpr double kClosed = 1e-7;    // of the larger arm and of the way, or rad
 constexpr double kFarTurn2 = 1e-2;  // rad^2: below, five terms are exact to 1e-17
 
 // exp(theta) as w, x, y, z.
@@ -127,7 +126,7 @@ void aimAtErrors(const Of<N>& s) {
 }
 
 template <class N>
-bool findOpen(const Of<N>& s) {
+bool findOpen(const Of<N>& s, double tolerance) {
   N most = all<N>(-1);
   for (int i = 0; i < s.rowCount; ++i) {
     if (!s.used[i]) continue;
@@ -140,7 +139,7 @@ bool findOpen(const Of<N>& s) {
         if (s.shapes[i].pulls) scale = larger(scale, squaredNorm(load3<N>(row.arm[b])));
       }
     }
-    most = larger(most, squaredNorm(load3<N>(row.right)) - all<N>(kClosed * kClosed) * scale);
+    most = larger(most, squaredNorm(load3<N>(row.right)) - all<N>(tolerance * tolerance) * scale);
   }
   const N open = load(*s.open);
   store(*s.open, wherePositive(most, open, all<N>(0)));

@@ -29,6 +29,9 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     blocks_.assign(topology_->meetings.size(), JointBlock<W>{});
     states_.assign(topology_->shapes.size(), State{});
     used_.resize(rows_.size());
+    steps_.lambda.resize(rows_.size());
+    steps_.u.resize(topology_->bodyCount);
+    steps_.theta.resize(topology_->bodyCount);
     usedCounts_.resize(rows_.size());
     usedBelow_.resize(topology_->below.size());
     const std::size_t tail = rows_.size() - topology_->tailStart;
@@ -38,6 +41,8 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     tailPlaces_.resize(tail);
   }
   takePulls();
+  for (JointLanes<W>& row : rows_) row.carried = {};
+  began_ = false;
   if (isSame) return;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     JointLanes<W>& row = rows_[i];
@@ -213,10 +218,28 @@ void JointPack<W>::begin() {
   stale_.fill(true);
 }
 
+// Limits that carried in the last substep are free as well: where only one of two is, what it gives
+// takes the bodies beyond the other, and they take turns.
+template <int W>
+void JointPack<W>::chooseCarrying() {
+  bool any = false;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    for (int l = 0; l < lanes_; ++l) {
+      if (!(rows_[k].carried.v[l] > 0) || rows_[k].free.v[l] > 0) continue;
+      setFree(static_cast<int>(k), l, true);
+      any = true;
+    }
+  }
+  if (!any) return;
+  findUsed();
+  jointKernels<W>().seeLimits(view(), false);
+}
+
 // A constraint at its bound is free where it would move into what it may do.
 template <int W>
 void JointPack<W>::chooseFree() {
   jointKernels<W>().chooseLimits(view());
+  chooseCarrying();
   for (const int i : topology_->others) {
     const JointLanes<W>& row = rows_[i];
     for (int l = 0; l < lanes_; ++l) {
@@ -333,22 +356,17 @@ void JointPack<W>::noteSeen() {
   }
 }
 
-// A step of Newton's from what was seen last. False where nothing is left to do.
+// A step of Newton's from what was seen last.
 template <int W>
-bool JointPack<W>::step(bool untilClosed) {
+void JointPack<W>::step() {
   const JointKernels<W>& kernels = jointKernels<W>();
   for (int round = 1;; ++round) {
     factorizeStale();
     kernels.aimAtErrors(view());
-    if (untilClosed && round == 1) {
-      if (!kernels.findOpen(view())) return false;
-      kernels.aimAtErrors(view());
-    }
     kernels.substitute(view());
     if (round == kMostRounds || !holdAtBounds()) break;
   }
   kernels.apply(view());
-  return true;
 }
 
 template <int W>
@@ -365,22 +383,80 @@ void JointPack<W>::solvePositions(const JointStage& stage, bool first) {
   }
   see(stage, first);
   if (first) {
+    if (began_) noteCarried();
+    began_ = true;
     begin();
     chooseFree();
   }
   noteSeen();
-  step(false);
+  step();
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
+// What the rows are off by, and from where the next step of Newton's begins.
 template <int W>
-void JointPack<W>::closePositions(const JointStage& stage) {
+void JointPack<W>::noteStep(int l) {
+  steps_.off[l] = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (used_[i]) steps_.off[l] = std::max(steps_.off[l], read(rows_[i].right, l).squaredNorm());
+    write(steps_.lambda[i].data(), l, read(rows_[i].lambda, l));
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    write(steps_.u[i].data(), l, read(bodies_[i].u, l));
+    write(steps_.theta[i].data(), l, read(bodies_[i].theta, l));
+  }
+}
+
+// Lanes that the last step took further off go back half of it, and wait. True: there are some.
+template <int W>
+bool JointPack<W>::goBack() {
+  bool any = false;
+  for (int l = 0; l < lanes_; ++l) {
+    if (!(open_.v[l] > 0)) continue;
+    double off = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (used_[i]) off = std::max(off, read(rows_[i].right, l).squaredNorm());
+    }
+    if (!(off > steps_.off[l])) {
+      noteStep(l);
+      continue;
+    }
+    const auto half = [&](Num<W>* value, const Num<W>* from) {
+      write(value, l, (0.5 * (read(value, l) + read(from, l))).eval());
+    };
+    for (std::size_t i = 0; i < rows_.size(); ++i) half(rows_[i].lambda, steps_.lambda[i].data());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      half(bodies_[i].u, steps_.u[i].data());
+      half(bodies_[i].theta, steps_.theta[i].data());
+    }
+    any = stale_[l] = true;
+    open_.v[l] = 0;
+  }
+  return any;
+}
+
+// Newton's method, until what is off before a step is no more than `tolerance` of the arms.
+template <int W>
+void JointPack<W>::closePositions(const JointStage& stage, double tolerance) {
+  const JointKernels<W>& kernels = jointKernels<W>();
   openAll();
   gatherMotion<W>(ids_, stage.moved, bodies_);
   for (int k = 0; k < kMostSteps; ++k) {
     see(stage, false);
     noteSeen();
-    if (!step(true)) break;
+    kernels.aimAtErrors(view());
+    Num<W> open = open_;
+    const bool waits = k > 0 && goBack();
+    const Num<W> steps = open_;
+    const bool isFar = kernels.findOpen(view(), tolerance);
+    for (int l = 0; l < W; ++l) {
+      if (steps.v[l] > 0) open.v[l] = open_.v[l];
+      if (k == 0 && l < lanes_ && open_.v[l] > 0) noteStep(l);
+    }
+    open_ = steps;
+    step();
+    if (!isFar && !waits) break;
+    open_ = open;
   }
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
@@ -439,6 +515,17 @@ void JointPack<W>::solveOpenVelocities(const JointStage& stage) {
   }
   kernels.apply(view());
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+}
+
+template <int W>
+void JointPack<W>::noteCarried() {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const JointSeen seen = topology_->shapes[k].seen;
+    if (seen != JointSeen::kCone && seen != JointSeen::kTwist) continue;
+    for (int l = 0; l < lanes_; ++l) {
+      rows_[k].carried.v[l] = rows_[k].lambda[0].v[l] != 0 ? 1 : 0;
+    }
+  }
 }
 
 template <int W>
