@@ -104,16 +104,26 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float push
     deepest = larger(deepest, zero - c[i]);
   }
   const Lanes share = smaller(soft * load(m.rate), all(pushed) / deepest);
+  // Twice: the first point of a sweep is pushed for all, and the bodies would tilt.
+  Lanes lambda[kCount];
+  for (int i = 0; i < kCount; ++i) lambda[i] = load(m.point[i].lambda);
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int i = 0; i < kCount; ++i) {
+      const Lanes inverse = load(m.point[i].inverse), scale = wherePositive(c[i], one, soft);
+      const Lanes aim = wherePositive(c[i], c[i], share * c[i]);
+      const Lanes yields = (one - scale) * (lambda[i] - load(m.held[i]));
+      const Lanes total = larger(lambda[i] - yields - inverse * (scale * v[i] + aim), zero);
+      const Lanes delta = total - lambda[i];
+      lambda[i] = total;
+      for (int j = 0; j < i; ++j) v[j] = v[j] + load(m.coupling[couplingOf(j, i)]) * delta;
+      tellOthers(m, i, delta, v);
+      v[i] = v[i] + wherePositive(inverse, delta / larger(inverse, all(kTiny)), zero);
+    }
+  }
   for (int i = 0; i < kCount; ++i) {
-    ContactBlock::Point& p = m.point[i];
-    const Lanes lambda = load(p.lambda), scale = wherePositive(c[i], one, soft);
-    const Lanes aim = wherePositive(c[i], c[i], share * c[i]);
-    const Lanes yields = (one - scale) * (lambda - load(m.held[i]));
-    const Lanes total = larger(lambda - yields - load(p.inverse) * (scale * v[i] + aim), zero);
-    const Lanes delta = total - lambda;
-    store(p.lambda, total);
-    tellOthers(m, i, delta, v);
-    turn(p, delta, a, b);
+    const Lanes delta = lambda[i] - load(m.point[i].lambda);
+    store(m.point[i].lambda, lambda[i]);
+    turn(m.point[i], delta, a, b);
     sum = sum + delta;
   }
   push(m, n * sum, a, b);
