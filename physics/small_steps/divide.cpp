@@ -63,15 +63,20 @@ void SmallSteps::Impl::learn(Model& w) {
   }
 }
 
-SmallSteps::Batch& SmallSteps::Impl::batchFor(int count, int sweepCount) {
+// What touches and what does not are apart: joints are closed further where no contact pushes.
+SmallSteps::Batch& SmallSteps::Impl::batchFor(int count, int sweepCount, bool touches) {
   for (std::size_t k = 0; k < batchCount; ++k) {
-    if (batches[k].substeps == count && batches[k].sweeps == sweepCount) return batches[k];
+    const Batch& batch = batches[k];
+    if (batch.substeps == count && batch.sweeps == sweepCount && batch.touches == touches) {
+      return batches[k];
+    }
   }
   if (batchCount == batches.size()) batches.emplace_back();
   Batch& batch = batches[batchCount++];
   clear(batch);
   batch.substeps = count;
   batch.sweeps = sweepCount;
+  batch.touches = touches;
   return batch;
 }
 
@@ -111,7 +116,7 @@ void SmallSteps::Impl::divide(Model& w) {
   settle(islands, stepping);
   for (const BodyId i : stepping) {
     batchOf[i] = -1;
-    energy[i] = 0;  // bodies of the island that something holds
+    held[i] = Held::kNot;
     substeps[i] = std::max(1, w.settings.substeps);
     sweeps[i] = 1;
   }
@@ -119,13 +124,14 @@ void SmallSteps::Impl::divide(Model& w) {
     const BodyId root = islands[i];
     substeps[root] = std::max(substeps[root], asked[i]);
     sweeps[root] = std::max(sweeps[root], askedSweeps[i]);
-    if (articulationOf[i] >= 0 || deformableOf[i] >= 0) energy[root] = 1;
+    if (articulationOf[i] >= 0 || deformableOf[i] >= 0) held[root] = Held::kJoined;
   }
   for (const KeptContact& c : contacts) {
-    if (stepsNow(c)) energy[islands[bodyOf(c)]] = 1;
+    if (stepsNow(c)) held[islands[bodyOf(c)]] = Held::kTouching;
   }
   for (const SoftPair& pair : softPairs) {
-    if (softStepsNow(w, pair)) energy[islands[softMoverOf(w, pair)]] = 1;
+    Held& island = held[islands[softMoverOf(w, pair)]];
+    if (softStepsNow(w, pair)) island = std::max(island, Held::kJoined);
   }
   assign();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
@@ -154,12 +160,13 @@ void SmallSteps::Impl::assign() {
   free.clear();
   for (const BodyId i : stepping) {
     const BodyId root = islands[i];
-    if (energy[root] == 0) {
+    if (held[root] == Held::kNot) {
       free.push_back(i);
       continue;
     }
     if (batchOf[root] < 0) {
-      batchOf[root] = static_cast<int>(&batchFor(substeps[root], sweeps[root]) - batches.data());
+      const Batch& batch = batchFor(substeps[root], sweeps[root], held[root] == Held::kTouching);
+      batchOf[root] = static_cast<int>(&batch - batches.data());
     }
     batchOf[i] = batchOf[root];
     substeps[i] = substeps[root];

@@ -62,6 +62,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   load.resize(bodies);
   sag.resize(bodies);
   energy.resize(bodies);
+  held.resize(bodies);
   change.resize(bodies);
 }
 

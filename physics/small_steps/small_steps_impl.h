@@ -42,6 +42,7 @@ constexpr int kLeastBodies = 64, kLeastBlocks = 8;
 // Islands of equal substeps and sweeps, which step side by side.
 struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
+  bool touches = false;  // contacts of rigid bodies, in every island of it
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
   JointPacks joints;                // of these articulations
@@ -88,6 +89,9 @@ struct SmallSteps::Impl {
   std::vector<Mat3> inertias;  // world, at X^t, and the turn without joints and contacts: of those
   std::vector<Vec3> spins;     // whose inertia turns with them
   std::vector<double> radius;  // by body, of its shape
+  enum class Held : char { kNot, kJoined, kTouching };
+  std::vector<Held>
+      held;  // island, by its first: what holds its bodies, joints or points, or contacts
   std::vector<double> load, sag, energy, change;  // by body (island: by its first)
 
   void learn(Model& w);
@@ -100,7 +104,7 @@ struct SmallSteps::Impl {
   void spread(Model& w);
   void divide(Model& w);
   void assign();
-  Batch& batchFor(int substeps, int sweeps);
+  Batch& batchFor(int substeps, int sweeps, bool touches);
   int colourOf(const Bodies& b, const KeptContact& c);
   void takeSlots(Batch& batch);
   void layOut(Model& w, Batch& batch);

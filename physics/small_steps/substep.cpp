@@ -210,7 +210,7 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
   }
   sweepDeformables(w, batch, h);
   profileScope("direct");
-  batch.joints.closePositions(stage, count > 0 ? kNearlyClosed : kClosed);
+  batch.joints.closePositions(stage, batch.touches ? kNearlyClosed : kClosed);
   if (count > 0 && batch.isMixed()) toLanes(w, batch);
 }
 

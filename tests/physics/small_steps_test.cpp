@@ -122,6 +122,27 @@ TEST(SmallSteps, AFastPairElsewhereDoesNotMoveAByte) {
   for (int k = 0; k < 4; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
 }
 
+// Joints are closed as far where something rests elsewhere, with as many substeps and sweeps.
+TEST(SmallSteps, AStackElsewhereDoesNotMoveAByteOfAChain) {
+  const auto build = [](World& world, bool withStack) {
+    addGround(world);
+    ChainDef chain;
+    chain.from = Vec3(0, 10, 0);
+    chain.direction = Vec3::UnitX();
+    chain.length = 0.3;
+    chain.matter.mass = 1;
+    chain.count = 6;
+    const BodyId first = add(world, chain).front();
+    if (withStack) addStack(world, 1, 40);
+    return first;
+  };
+  World alone(byDefault()), accompanied(byDefault());
+  const BodyId i = build(alone, false), j = build(accompanied, true);
+  run(alone, 120);
+  run(accompanied, 120);
+  for (int k = 0; k < 6; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
+}
+
 // What a hit sets in motion meets what stood beside it within the same step.
 TEST(SmallSteps, AFastHitIsPassedOnWithinTheStep) {
   Settings settings = byDefault();
