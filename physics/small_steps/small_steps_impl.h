@@ -2,7 +2,7 @@
 // of it.
 //   divide.cpp        articulations, islands, and the batches that they step in
 //   contact_rows.cpp  contacts into the lanes that sweep over them, and back
-//   contact_motion.cpp  bodies into these lanes, and back
+//   contact_motion.cpp bodies into these lanes, and back
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds
 //   bounce.cpp        restitution
@@ -89,10 +89,9 @@ struct SmallSteps::Impl {
   std::vector<Mat3> inertias;  // world, at X^t, and the turn without joints and contacts: of those
   std::vector<Vec3> spins;     // whose inertia turns with them
   std::vector<double> radius;  // by body, of its shape
-  enum class Held : char { kNot, kJoined, kTouching };
-  std::vector<Held>
-      held;  // island, by its first: what holds its bodies, joints or points, or contacts
-  std::vector<double> load, sag, energy, change;  // by body (island: by its first)
+  enum class Held : char { kNot, kJoined, kTouching };  // by joints or points; by contacts
+  std::vector<Held> held;                               // of an island, by its first body
+  std::vector<double> load, sag, energy, change;        // by body (island: by its first)
 
   void learn(Model& w);
   void makeRoom(std::size_t bodies);

@@ -93,7 +93,8 @@ class JointPack {
   void see(const JointStage& stage, bool all);
   void noteSeen();
   void step();
-  void noteStep(int lane);
+  double offOf(int lane) const;
+  void noteStep(int lane, double off);
   bool goBack();
   void begin();
   void chooseFree();

@@ -33,8 +33,10 @@ inline constexpr double kMostFill = 100, kMostFillOfPoints = 16;
 // Keeps the factor regular where rows repeat each other: relative to the row's own A.
 inline constexpr double kRedundancy = 1e-7;
 
-// M + K and the rows as one symmetric matrix,
-//   (M + K) d + J^T m = 0,   J d - alpha m = -(c + alpha lambda),   d: change of u, m: of -lambda
+// M + K and the rows as one symmetric matrix, for d, the change of u, and -lambda (of velocities,
+// where K = 0, its change):
+//   M + K   J^T
+//   J      -alpha
 // with the geometric stiffness K of what pulls, without which a heavy end on light links gains
 // energy. What is held at a bound keeps its place in the pattern.
 struct MeshFactor {

@@ -42,10 +42,7 @@ bool Deformable::holdAtBounds(std::span<Displacement> moved) {
   for (SoftRow* row : contacts_) {
     const double wanted = row->lambda - factor_->solution[at++];
     if (row->held || wanted >= 0) continue;
-    const Vec3 impulse = -row->lambda * row->n;
-    moved[row->from].u += (row->first * (1 - row->along)) * impulse;
-    moved[row->to].u += (row->second * row->along) * impulse;
-    giveBody(*row, impulse, moved);
+    giveTo(*row, -row->lambda * row->n, moved);
     row->lambda = 0;
     row->held = any = true;
   }
@@ -147,10 +144,7 @@ double Deformable::changeAlong(const SoftRow& row) const {
     sum += (second ? row.along : 1 - row.along) * row.n.dot(d.segment<3>(unknown_[place]));
   }
   const int place = placeOf(row.body);
-  if (place < 0) {
-    const Vec3 lever = row.arm.cross(row.n);
-    return sum + (row.inverseMass + lever.dot(row.inertia * lever)) * (row.next - row.lambda);
-  }
+  if (place < 0) return sum + bodyGives(row) * (row.next - row.lambda);
   sum -= row.n.dot(d.segment<3>(unknown_[place]));
   if (turns_[place]) sum -= row.arm.cross(row.n).dot(d.segment<3>(unknown_[place] + 3));
   return sum;

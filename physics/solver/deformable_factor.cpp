@@ -69,8 +69,7 @@ void Deformable::takeMasses(std::span<const JointMass> masses) {
 double Deformable::givesOf(const SoftRow& row) const {
   const double least = kRedundancy / row.inverse;
   if (placeOf(row.body) >= 0) return least;
-  const Vec3 lever = row.arm.cross(row.n);
-  return row.inverseMass + lever.dot(row.inertia * lever) + least;
+  return bodyGives(row) + least;
 }
 
 // entry(row, column, value) of the lower triangle, always the same ones in the same order.

@@ -62,6 +62,10 @@ struct JointShape {
   bool hasWay = false;  // its error is in m, else in rad
   bool isGap = false, hasLinear = false, hasAngular = false;
 };
+// Each file that includes this has its own.
+static constexpr bool isLimit(const JointShape& shape) {
+  return shape.seen == JointSeen::kCone || shape.seen == JointSeen::kTwist;
+}
 struct JointBelow {
   int to, block;
 };

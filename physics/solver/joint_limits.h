@@ -144,10 +144,6 @@ void seeLimits(const Of<N>& s, bool every) {
   }
 }
 
-bool isLimit(const JointShape& shape) {
-  return shape.seen == JointSeen::kCone || shape.seen == JointSeen::kTwist;
-}
-
 template <class N>
 N within(const JointLanes<N::kWidth>& row, N total) {
   return smaller(larger(total, load(row.low)), load(row.high));

@@ -393,12 +393,21 @@ void JointPack<W>::solvePositions(const JointStage& stage, bool first) {
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
-// What the rows are off by, and from where the next step of Newton's begins.
+// What the rows of a lane are off by, at the most, squared.
 template <int W>
-void JointPack<W>::noteStep(int l) {
-  steps_.off[l] = 0;
+double JointPack<W>::offOf(int l) const {
+  double off = 0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (used_[i]) steps_.off[l] = std::max(steps_.off[l], read(rows_[i].right, l).squaredNorm());
+    if (used_[i]) off = std::max(off, read(rows_[i].right, l).squaredNorm());
+  }
+  return off;
+}
+
+// From where the next step of Newton's begins.
+template <int W>
+void JointPack<W>::noteStep(int l, double off) {
+  steps_.off[l] = off;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
     write(steps_.lambda[i].data(), l, read(rows_[i].lambda, l));
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -413,12 +422,9 @@ bool JointPack<W>::goBack() {
   bool any = false;
   for (int l = 0; l < lanes_; ++l) {
     if (!(open_.v[l] > 0)) continue;
-    double off = 0;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (used_[i]) off = std::max(off, read(rows_[i].right, l).squaredNorm());
-    }
+    const double off = offOf(l);
     if (!(off > steps_.off[l])) {
-      noteStep(l);
+      noteStep(l, off);
       continue;
     }
     const auto half = [&](Num<W>* value, const Num<W>* from) {
@@ -451,7 +457,7 @@ void JointPack<W>::closePositions(const JointStage& stage, double tolerance) {
     const bool isFar = kernels.findOpen(view(), tolerance);
     for (int l = 0; l < W; ++l) {
       if (steps.v[l] > 0) open.v[l] = open_.v[l];
-      if (k == 0 && l < lanes_ && open_.v[l] > 0) noteStep(l);
+      if (k == 0 && l < lanes_ && open_.v[l] > 0) noteStep(l, offOf(l));
     }
     open_ = steps;
     step();
@@ -472,7 +478,7 @@ void JointPack<W>::prepareVelocities(const JointStage& stage) {
     for (int l = 0; l < W; ++l) {
       bool free = !givesWay(i, l);
       if (byKind) free = free && l < lanes_ && states_[i].active[l];
-      const bool bounded = byKind ? free && isBounded(row, l) : !shape.isGap;
+      const bool bounded = byKind ? free && isBounded(row, l) : isLimit(shape);
       setFree(i, l, free && (!bounded || !read(row.lambda, l).isZero(0)));
     }
   }
@@ -520,8 +526,7 @@ void JointPack<W>::solveOpenVelocities(const JointStage& stage) {
 template <int W>
 void JointPack<W>::noteCarried() {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const JointSeen seen = topology_->shapes[k].seen;
-    if (seen != JointSeen::kCone && seen != JointSeen::kTwist) continue;
+    if (!isLimit(topology_->shapes[k])) continue;
     for (int l = 0; l < lanes_; ++l) {
       rows_[k].carried.v[l] = rows_[k].lambda[0].v[l] != 0 ? 1 : 0;
     }

@@ -49,10 +49,6 @@ Meetings meetingsOf(const std::vector<JointShape>& shapes, int bodyCount) {
   return at;
 }
 
-bool isLimit(const JointShape& shape) {
-  return shape.seen == JointSeen::kCone || shape.seen == JointSeen::kTwist;
-}
-
 // A minimum-degree order of these rows.
 std::vector<int> orderOf(const std::vector<int>& rows, std::size_t count, const Meetings& at) {
   if (rows.empty()) return {};

@@ -20,13 +20,17 @@ void giveBody(const SoftRow& row, const Vec3& impulse, std::span<Displacement> m
   moved[row.body].theta -= row.inertia * row.arm.cross(impulse);
 }
 
-namespace {
+double bodyGives(const SoftRow& row) {
+  return row.inverseMass + row.arm.cross(row.n).dot(row.turn);
+}
 
 void giveTo(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved) {
   moved[row.from].u += (row.first * (1 - row.along)) * impulse;
   moved[row.to].u += (row.second * row.along) * impulse;
   giveBody(row, impulse, moved);
 }
+
+namespace {
 
 void rub(SoftRow& row, std::span<Displacement> moved) {
   const Eigen::Vector2d wanted =

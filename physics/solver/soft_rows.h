@@ -31,6 +31,10 @@ struct SoftRow {
 
 // What p on the soft side moves by against the matter of the body.
 Vec3 slipOf(const SoftRow& row, std::span<const Displacement> moved);
+// What the body moves by along n for an impulse against it: its part of A.
+double bodyGives(const SoftRow& row);
+// Displaces the ends and the body by an impulse on the soft side.
+void giveTo(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved);
 // Displaces the body alone by an impulse on the soft side.
 void giveBody(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved);
 

@@ -85,6 +85,17 @@ TEST_P(HeavyEnd, KeepsTheChainClosedAndItsEnergyBounded) {
 }
 INSTANTIATE_TEST_SUITE_P(MassRatios, HeavyEnd, ::testing::Values(1, 100, 250, 300, 1000, 1e4));
 
+// `build` makes a world with or without company, and returns the first of `count` bodies that are
+// not to know of it.
+template <class F>
+void expectSameAlone(int count, F&& build) {
+  World alone(byDefault()), accompanied(byDefault());
+  const BodyId i = build(alone, false), j = build(accompanied, true);
+  run(alone, 120);
+  run(accompanied, 120);
+  for (int k = 0; k < count; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
+}
+
 // What happens in one island cannot change a byte in another.
 TEST(SmallSteps, IslandsDoNotKnowOfEachOther) {
   const auto build = [](World& world, bool withNeighbour) {
@@ -96,11 +107,7 @@ TEST(SmallSteps, IslandsDoNotKnowOfEachOther) {
     }
     return first;
   };
-  World alone(byDefault()), accompanied(byDefault());
-  const BodyId i = build(alone, false), j = build(accompanied, true);
-  run(alone, 120);
-  run(accompanied, 120);
-  for (int k = 0; k < 6; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
+  expectSameAlone(6, build);
 }
 
 // Neither where the other has to look for its contacts twice in a step.
@@ -115,11 +122,7 @@ TEST(SmallSteps, AFastPairElsewhereDoesNotMoveAByte) {
     }
     return first;
   };
-  World alone(byDefault()), accompanied(byDefault());
-  const BodyId i = build(alone, false), j = build(accompanied, true);
-  run(alone, 120);
-  run(accompanied, 120);
-  for (int k = 0; k < 4; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
+  expectSameAlone(4, build);
 }
 
 // Joints are closed as far where something rests elsewhere, with as many substeps and sweeps.
@@ -136,11 +139,7 @@ TEST(SmallSteps, AStackElsewhereDoesNotMoveAByteOfAChain) {
     if (withStack) addStack(world, 1, 40);
     return first;
   };
-  World alone(byDefault()), accompanied(byDefault());
-  const BodyId i = build(alone, false), j = build(accompanied, true);
-  run(alone, 120);
-  run(accompanied, 120);
-  for (int k = 0; k < 6; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
+  expectSameAlone(6, build);
 }
 
 // What a hit sets in motion meets what stood beside it within the same step.
