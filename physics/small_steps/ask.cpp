@@ -12,6 +12,9 @@ constexpr double kLargestSag = 1.25e-4;
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 constexpr double kLargestTurn =
     0.05;  // rad, of what is solved at once: its rows are taken as straight
+// Of its weight, what a body with joints may carry while contacts and joints take turns: a round
+// brings about as much as it weighs up to the joints, and a substep has three.
+constexpr double kMostCarried = 4;
 constexpr int kMostSubsteps = 64;
 // What the last velocity sweep may change, of the energy that an island has in g h^2 and in motion.
 constexpr double kRest = 1e-6;
@@ -96,13 +99,37 @@ void SmallSteps::Impl::askDeformables(Model& w, const Batch& batch, double h) {
   }
 }
 
+// Contacts see the articulated mass of what carries much more than it weighs.
+void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch, double h) {
+  const Bodies& b = w.bodies;
+  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
+  for (const int k : batch.articulations) {
+    responding[k] = 0;
+    for (const BodyId i : articulations[k].bodies()) load[i] = 0;
+  }
+  for (const int k : batch.contacts) {
+    const KeptContact& c = contacts[k];
+    for (int p = 0; p < c.count; ++p) {
+      for (const BodyId i : {c.a, c.b}) load[i] += c.lambda[p];
+    }
+  }
+  for (const int k : batch.articulations) {
+    if (!articulations[k].holdsBothWays()) continue;
+    for (const BodyId i : articulations[k].bodies()) {
+      if (load[i] > kMostCarried * b.mass[i] * g * h * h) responding[k] = 1;
+    }
+  }
+}
+
 // Sag goes with h^2; what the last sweep changed tells whether an island is at rest.
 void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
+  weighJoints(w, batch, h);
   askDeformables(w, batch, h);
   askSoft(w, batch);
   weighMotion(w, batch, h);
   weighContacts(w, batch);
-  const int most = batch.articulations.empty() ? kMostSweeps : kMostJointedSweeps;
+  const bool takeTurns = !batch.articulations.empty() && batch.responders.empty();
+  const int most = takeTurns ? kMostJointedSweeps : kMostSweeps;
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {

@@ -1,52 +1,9 @@
 // Bodies into the lanes that contacts work on, and back.
 #include <algorithm>
-#include <cmath>
 
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
-
-// The root by Cholesky. A direction that nothing turns has a zero pivot, but for rounding.
-LaneMass laneMassOf(const JointMass& mass) {
-  constexpr double kRounding = 1e-13;
-  const Mat3& m = mass.inertia;
-  const double least = kRounding * m.trace();
-  LaneMass lane;
-  lane.inverse = static_cast<float>(mass.inverse);
-  double l00 = LaneMass::kUnturned, l10 = 0, l20 = 0;
-  if (m(0, 0) > least) {
-    l00 = std::sqrt(m(0, 0));
-    l10 = m(1, 0) / l00;
-    l20 = m(2, 0) / l00;
-  }
-  double l11 = LaneMass::kUnturned, l21 = 0;
-  const double second = m(1, 1) - l10 * l10;
-  if (second > least) {
-    l11 = std::sqrt(second);
-    l21 = (m(2, 1) - l20 * l10) / l11;
-  }
-  const double third = m(2, 2) - l20 * l20 - l21 * l21;
-  const double l22 = third > least ? std::sqrt(third) : LaneMass::kUnturned;
-  const double entries[6] = {l00, l10, l20, l11, l21, l22};
-  for (int k = 0; k < 6; ++k) lane.root[k] = static_cast<float>(entries[k]);
-  return lane;
-}
-
-namespace {
-
-Vec3 rotationOf(const LaneMass& mass, const Vec3& turn) {
-  const auto& r = mass.root;
-  return {r[0] * turn.x(), r[1] * turn.x() + r[3] * turn.y(),
-          r[2] * turn.x() + r[4] * turn.y() + r[5] * turn.z()};
-}
-
-Vec3 turnOf(const LaneMass& mass, const Vec3& theta) {
-  const auto& r = mass.root;
-  const double x = theta.x() / r[0], y = (theta.y() - r[1] * x) / r[3];
-  return {x, y, (theta.z() - r[2] * x - r[4] * y) / r[5]};
-}
-
-}  // namespace
 
 void SmallSteps::Impl::toLane(Batch& batch, int slot) {
   LaneMotion& lane = batch.motions[slot];
@@ -66,6 +23,9 @@ void SmallSteps::Impl::fromLane(Batch& batch, int slot) {
   LaneStart& before = batch.before[slot];
   const BodyId i = batch.slots[slot];
   if (inertiaOf[i] == Inertia::kGiven) return;
+  if (!batch.responders.empty() && batch.responders[slot].articulation >= 0) {
+    return takeGiven(batch, slot);
+  }
   const auto change = [](const float(&now)[3], float(&then)[3]) {
     Vec3 by;
     for (int k = 0; k < 3; ++k) {
@@ -77,6 +37,16 @@ void SmallSteps::Impl::fromLane(Batch& batch, int slot) {
   moved[i].u += change(lane.u, before.u);
   if (inertiaOf[i] == Inertia::kNone) return;
   moved[i].theta += rotationOf(batch.masses[slot], change(lane.turn, before.turn));
+}
+
+// Of a body whose joints respond: what contacts gave it, as if it had none. They are to follow.
+void SmallSteps::Impl::takeGiven(Batch& batch, int slot) {
+  const BodyId i = batch.slots[slot];
+  float(&given)[6] = batch.responders[slot].given;
+  const Vec3 turn(given[3], given[4], given[5]);
+  moved[i].u += masses[i].inverse * Vec3(given[0], given[1], given[2]);
+  moved[i].theta += masses[i].inertia * torqueOf(batch.masses[slot], turn);
+  std::fill(std::begin(given), std::end(given), 0.f);
 }
 
 void SmallSteps::Impl::toLanes(Model& w, Batch& batch) {

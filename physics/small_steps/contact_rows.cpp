@@ -20,34 +20,41 @@ Softness softness(double periods, double zeta) {
   return {static_cast<float>(1 - 1 / d), static_cast<float>(omega / (2 * zeta + omega))};
 }
 
-constexpr int kColours = 64, kColourLists = 2 * kColours;
+constexpr int kColours = 64, kColourLists = 4 * kColours;
 
-// The last colour of either kind is the overflow: a block each.
+// The last colour of each kind is the overflow: a block each.
 int laneStride(int list) { return list % kColours == kColours - 1 ? ContactBlock::kLanes : 1; }
 
 // Blocks up to `end`, which are of one colour if they are `independent`.
-void addRun(int end, bool independent, std::vector<BlockRun>& runs) {
+void addRun(int end, bool independent, bool responds, std::vector<BlockRun>& runs) {
   const int begin = runs.empty() ? 0 : runs.back().first + runs.back().count, count = end - begin;
   if (count == 0) return;
-  const bool shared = independent && count >= 2 * kLeastBlocks;
-  if (!shared && !runs.empty() && !runs.back().shared) {
+  const bool shared = independent && count >= 2 * kLeastBlocks && !responds;
+  if (!shared && !runs.empty() && !runs.back().shared && runs.back().responds == responds) {
     runs.back().count += count;
   } else {
-    runs.push_back({begin, count, shared});
+    runs.push_back({begin, count, shared, responds});
   }
 }
 
 }  // namespace
 
+// What one contact moves: a body, or all of an articulation that responds.
+BodyId SmallSteps::Impl::leaderOf(BodyId i) const {
+  const int k = articulationOf[i];
+  return k >= 0 && responding[k] ? articulations[k].bodies().front() : i;
+}
+
 int SmallSteps::Impl::colourOf(const Bodies& b, const KeptContact& c) {
   const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0;
   auto& used = movesA && movesB ? colours : coloursFixed;
-  const std::uint64_t taken = (movesA ? used[c.a] : 0) | (movesB ? used[c.b] : 0);
+  const BodyId a = leaderOf(c.a), other = leaderOf(c.b);
+  const std::uint64_t taken = (movesA ? used[a] : 0) | (movesB ? used[other] : 0);
   int colour = kColours - 1;
   if (~taken != 0) colour = std::min(__builtin_ctzll(~taken), kColours - 1);
-  if (movesA) used[c.a] |= std::uint64_t{1} << colour;
-  if (movesB) used[c.b] |= std::uint64_t{1} << colour;
-  return colour + (movesA && movesB ? 0 : kColours);
+  if (movesA) used[a] |= std::uint64_t{1} << colour;
+  if (movesB) used[other] |= std::uint64_t{1} << colour;
+  return colour + (movesA && movesB ? 0 : 2 * kColours) + (meetsResponse(c) ? kColours : 0);
 }
 
 // A slot to every body, where it meets anything.
@@ -72,6 +79,7 @@ void SmallSteps::Impl::takeSlots(Batch& batch) {
 void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
   takeSlots(batch);
   if (batch.contacts.empty()) return;
+  takeResponses(batch);
   placeOf.resize(batch.contacts.size());
   std::array<int, kColourLists * ContactBlock::kPoints> first{};  // and by missing points
   for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
@@ -88,7 +96,8 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
       lanes += count;
     }
     lanes = (lanes + ContactBlock::kLanes - 1) / ContactBlock::kLanes * ContactBlock::kLanes;
-    addRun(lanes / ContactBlock::kLanes, laneStride(list) == 1, batch.runs);
+    addRun(lanes / ContactBlock::kLanes, laneStride(list) == 1, list / kColours % 2 == 1,
+           batch.runs);
   }
   batch.blocks.resize(lanes / ContactBlock::kLanes);
   for (ContactBlock& block : batch.blocks) {

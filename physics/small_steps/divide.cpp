@@ -46,6 +46,7 @@ void SmallSteps::Impl::learn(Model& w) {
   topologies.clear();
   articulationOf.assign(w.bodies.pose.size(), -1);
   deformableOf.assign(w.bodies.pose.size(), -1);
+  responding.clear();
   for (const BodyId root : roots) {
     const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
     const bool isDirect = mesh.fill <= (mesh.points ? kMostFillOfPoints : kMostFill);
@@ -56,6 +57,7 @@ void SmallSteps::Impl::learn(Model& w) {
       }
     } else {
       articulations.emplace_back(rows[root], w.kinds, w.bodies.inverse, topologies);
+      responding.push_back(0);
       for (const BodyId i : articulations.back().bodies()) {
         articulationOf[i] = static_cast<int>(articulations.size()) - 1;
       }

@@ -2,6 +2,7 @@
 // of it.
 //   divide.cpp        articulations, islands, and the batches that they step in
 //   contact_rows.cpp  contacts into the lanes that sweep over them, and back
+//   responses.cpp     contacts that see what joints make of what they give
 //   contact_motion.cpp bodies into these lanes, and back
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds
@@ -12,6 +13,7 @@
 #pragma once
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "physics/model/model.h"
 #include "physics/small_steps/small_steps.h"
@@ -23,9 +25,17 @@
 namespace physics {
 
 // Blocks that follow each other. `shared`: they are of one colour, and may be swept at a time.
+// `responds`: what they give goes through joints.
 struct BlockRun {
   int first = 0, count = 0;
-  bool shared = false;
+  bool shared = false, responds = false;
+};
+
+// A body of an articulation that responds, and what contacts gave it in a stage, in the units of
+// its lane.
+struct Responder {
+  int articulation = -1, place = -1;  // and its place in the response
+  float given[6] = {};
 };
 
 // What turns a body. Given: nothing, nor moves it. None: it is a point. Round: in every direction
@@ -51,9 +61,10 @@ struct SmallSteps::Batch {
   std::vector<SoftRow> softRows;
   Contacts impacts;  // with restitution only: the pairs of `contacts`, for one substep
   std::vector<ContactBlock> blocks;
-  std::vector<BlockRun> runs;       // all of them, in order
-  std::vector<LaneMotion> motions;  // by slot; 0 is what does not move
-  std::vector<LaneStart> before;    // of the motions, when the bodies last knew of them
+  std::vector<BlockRun> runs;         // all of them, in order
+  std::vector<LaneMotion> motions;    // by slot; 0 is what does not move
+  std::vector<Responder> responders;  // by slot; empty: none
+  std::vector<LaneStart> before;      // of the motions, when the bodies last knew of them
   std::vector<LaneMass> masses;
   std::vector<BodyId> slots;  // the body of each slot
 
@@ -81,6 +92,7 @@ struct SmallSteps::Impl {
   std::vector<BodyId> stepping;                      // those that step now
   std::vector<int> batchOf, slotOf;                  // by body
   std::vector<std::uint64_t> colours, coloursFixed;  // by body: taken by its contacts
+  std::vector<char> responding;                      // by articulation: contacts see its mass
   std::vector<int> placeOf;                          // scratch, of a batch's contacts
   std::vector<Inertia> inertiaOf;                    // by body, of this step
   std::vector<JointMass> masses;
@@ -105,7 +117,18 @@ struct SmallSteps::Impl {
   void assign();
   Batch& batchFor(int substeps, int sweeps, bool touches);
   int colourOf(const Bodies& b, const KeptContact& c);
+  BodyId leaderOf(BodyId i) const;
+  bool meetsResponse(const KeptContact& c) const;
   void takeSlots(Batch& batch);
+  void takeResponses(Batch& batch);
+  void respond(Batch& batch);
+  void prepareResponses(Batch& batch, ContactBlock& block, int lane) const;
+  void spread(Batch& batch, int slot, const float (&given)[6]) const;
+  void weighJoints(const Model& w, const Batch& batch, double h);
+  template <class F>
+  void sweepResponding(Batch& batch, ContactBlock& block, F&& kernel) const;
+  template <class F>
+  void sweep(Model& w, Batch& batch, std::initializer_list<ContactRows> responding, F&& kernel);
   void layOut(Model& w, Batch& batch);
   BodyId softMoverOf(const Model& w, const SoftPair& pair) const;
   void joinSoft(const Model& w, const SoftPair& pair);
@@ -119,13 +142,12 @@ struct SmallSteps::Impl {
   void predictTurn(Model& w, BodyId i, double h, bool first);
   void toLane(Batch& batch, int slot);
   void fromLane(Batch& batch, int slot);
+  void takeGiven(Batch& batch, int slot);
   void toLanes(Model& w, Batch& batch);
   void fromLanes(Model& w, Batch& batch);
   void sweepContactPositions(Model& w, Batch& batch, double h);
   void sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which);
   void displaceBody(Model& w, BodyId i, double h);
-  template <class F>
-  static void forEachColour(Model& w, Batch& batch, F&& f);
   void displaceAll(Model& w, Batch& batch, double h);
   template <class F>
   static void forEachLane(const Batch& batch, F&& f);
@@ -156,18 +178,62 @@ struct SmallSteps::Impl {
   std::vector<BodyId> free;
 };
 
-// f(blocks, count) of what may be swept at a time, in order.
+// What contacts give to bodies of articulations is taken from these alone, and goes to all of an
+// articulation.
 template <class F>
-void SmallSteps::Impl::forEachColour(Model& w, Batch& batch, F&& f) {
-  ContactBlock* const blocks = batch.blocks.data();
-  if (w.workers.count() == 1) return f(blocks, static_cast<int>(batch.blocks.size()));
-  for (const BlockRun& run : batch.runs) {
-    if (!run.shared) {
-      f(blocks + run.first, run.count);
-      continue;
+void SmallSteps::Impl::sweepResponding(Batch& batch, ContactBlock& block, F&& kernel) const {
+  constexpr int kLanes = ContactBlock::kLanes;
+  struct Lane {
+    int slot = 0;
+    float u[6] = {};
+  };
+  Lane before[2 * kLanes];
+  for (int l = 0; l < 2 * kLanes; ++l) {
+    Lane& lane = before[l];
+    lane.slot = l < kLanes ? block.bodyA[l] : block.bodyB[l - kLanes];
+    const LaneMotion& motion = batch.motions[lane.slot];
+    std::copy(motion.u, motion.u + 3, lane.u);
+    std::copy(motion.turn, motion.turn + 3, lane.u + 3);
+  }
+  kernel(&block, 1);
+  for (Lane& lane : before) {
+    if (batch.responders[lane.slot].articulation < 0) continue;
+    LaneMotion& motion = batch.motions[lane.slot];
+    const float mass = 1 / batch.masses[lane.slot].inverse;
+    for (int k = 0; k < 3; ++k) {
+      const float u = motion.u[k] - lane.u[k], turn = motion.turn[k] - lane.u[3 + k];
+      motion.u[k] = lane.u[k];
+      motion.turn[k] = lane.u[3 + k];
+      lane.u[k] = mass * u;
+      lane.u[3 + k] = turn;
     }
-    w.workers.forEachChunk(run.count, kLeastBlocks,
-                           [&](int from, int to) { f(blocks + run.first + from, to - from); });
+  }
+  for (const Lane& lane : before) {
+    if (batch.responders[lane.slot].articulation >= 0) spread(batch, lane.slot, lane.u);
+  }
+}
+
+// kernel(blocks, count, rows) of what may be swept at a time, in order. Where joints respond the
+// rows are swept by parts: each sees what the one before has made of the articulation.
+template <class F>
+void SmallSteps::Impl::sweep(Model& w, Batch& batch, std::initializer_list<ContactRows> responding,
+                             F&& kernel) {
+  ContactBlock* const blocks = batch.blocks.data();
+  for (const BlockRun& run : batch.runs) {
+    if (run.responds) {
+      for (int k = run.first; k < run.first + run.count; ++k) {
+        for (const ContactRows rows : responding) {
+          sweepResponding(batch, blocks[k],
+                          [&](ContactBlock* b, int count) { kernel(b, count, rows); });
+        }
+      }
+    } else if (!run.shared) {
+      kernel(blocks + run.first, run.count, ContactRows::kAll);
+    } else {
+      w.workers.forEachChunk(run.count, kLeastBlocks, [&](int from, int to) {
+        kernel(blocks + run.first + from, to - from, ContactRows::kAll);
+      });
+    }
   }
 }
 

@@ -181,18 +181,21 @@ void SmallSteps::Impl::sweepDeformables(Model& w, Batch& batch, double h) {
 // Contacts alone, in the lanes: colour by colour.
 void SmallSteps::Impl::sweepContactPositions(Model& w, Batch& batch, double h) {
   const float push = static_cast<float>(w.settings.contact->maxSeparationSpeed * h);
-  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
+  sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
     contactKernels().warmStart(blocks, count, batch.motions.data());
   });
-  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
+  sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
     contactKernels().sweepPositions(blocks, count, batch.motions.data(), push);
   });
 }
 
 void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which) {
-  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
-    contactKernels().sweepVelocities(blocks, count, batch.motions.data(), which);
-  });
+  sweep(w, batch, {ContactRows::kNormal, ContactRows::kFriction},
+        [&](ContactBlock* blocks, int count, ContactRows rows) {
+          VelocitySweep part = which;
+          part.rows = rows;
+          contactKernels().sweepVelocities(blocks, count, batch.motions.data(), part);
+        });
 }
 
 // Joints, contacts, joints: the last ones leave contacts open by little, and joints not at all.
@@ -205,8 +208,10 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
   if (count > 0) {
     profileScope("contact");
     toLanes(w, batch);
+    respond(batch);
     sweepContactPositions(w, batch, h);
     if (batch.isMixed()) fromLanes(w, batch);
+    batch.joints.followPositions(stage);
   }
   sweepDeformables(w, batch, h);
   profileScope("direct");
@@ -232,7 +237,10 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   }
   measure(batch.softRows, moved);
   const bool isMixed = batch.isMixed();
-  if (count > 0 && isMixed) toLanes(w, batch);
+  if (count > 0 && isMixed) {
+    toLanes(w, batch);
+    respond(batch);
+  }
   for (int s = 0; s < batch.sweeps; ++s) {
     if (count > 0) {
       profileScope("contact");

@@ -70,6 +70,10 @@ void JointPacks::solvePositions(const JointStage& stage, bool first) {
   forEach([&](auto& pack) { pack.solvePositions(stage, first); });
 }
 
+void JointPacks::followPositions(const JointStage& stage) {
+  forEach([&](auto& pack) { pack.followPositions(stage); });
+}
+
 void JointPacks::closePositions(const JointStage& stage, double tolerance) {
   forEach([&](auto& pack) { pack.closePositions(stage, tolerance); });
 }
@@ -84,6 +88,10 @@ void JointPacks::solveVelocities(const JointStage& stage) {
 
 void JointPacks::refineVelocities(const JointStage& stage) {
   forEach([&](auto& pack) { pack.refineVelocities(stage); });
+}
+
+void JointPacks::respond() {
+  forEach([&](auto& pack) { pack.respond(); });
 }
 
 void JointPacks::finish(Kinds& kinds, double h) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "physics/solver/joint_topology.h"
+#include "physics/solver/lane_mass.h"
 
 namespace physics {
 
@@ -22,10 +23,27 @@ struct Displacement {
   Vec3 u = Vec3::Zero(), theta = Vec3::Zero();
 };
 
-// M^-1 as joints see it.
-struct JointMass {
-  double inverse = 0;           // 1/kg
-  Mat3 inertia = Mat3::Zero();  // world, inverse
+// What impulses on some bodies of an articulation move these by while its joints hold,
+//   R = M^-1 - M^-1 J^T A^-1 J M^-1,
+// by pairs of them, in the units of their lanes: the articulated mass that contacts see. Limits are
+// left out: what holds one way only would pull in R, and what contacts give beyond it is energy.
+struct JointResponse {
+  static constexpr int kColumn = 8;  // six, padded
+  std::vector<int> at;               // by body of the articulation: its place here, -1: none
+  std::vector<int> slots;            // by place
+  std::vector<LaneMass> masses;      // by place
+  std::vector<float> entries;
+  std::size_t size() const { return slots.size(); }
+  const float* block(std::size_t to, std::size_t from) const {
+    return entries.data() + (from * size() + to) * 6 * kColumn;
+  }
+  void makeRoom() {
+    masses.resize(size());
+    entries.resize(size() * size() * 6 * kColumn);
+  }
+  float* block(std::size_t to, std::size_t from) {
+    return entries.data() + (from * size() + to) * 6 * kColumn;
+  }
 };
 
 class Articulation {
@@ -36,6 +54,10 @@ class Articulation {
 
   std::span<const BodyId> bodies() const { return bodies_; }
   std::size_t size() const { return refs_.size(); }
+  std::span<const BodyId> allBodies() const { return all_; }
+  bool holdsBothWays() const { return holdsBothWays_; }  // nothing but gaps and axles, at work
+  JointResponse& response() { return response_; }        // of bodies that contacts touch
+  const JointResponse& response() const { return response_; }
   void forget();  // what it pulled with in the last substep
 
  private:
@@ -53,6 +75,8 @@ class Articulation {
   std::vector<BodyId> all_;     // bodies of its rows, sorted
   std::vector<BodyId> bodies_;  // those of them that move
   std::vector<Pull> pulls_;     // by row
+  bool holdsBothWays_ = false;
+  JointResponse response_;
 };
 
 // What a stage of a substep works on, by BodyId.
@@ -73,10 +97,12 @@ class JointPack {
   void stiffen(std::span<Mat3> stiffness) const;
   void leave(const JointStage& stage, double most);
   void solvePositions(const JointStage& stage, bool first);
+  void followPositions(const JointStage& stage);
   void closePositions(const JointStage& stage, double tolerance);
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
   void refineVelocities(const JointStage& stage);
+  void respond();
   void finish(Kinds& kinds, double h);
 
  private:
@@ -107,6 +133,10 @@ class JointPack {
   void findUsed();
   void takePulls();
   bool givesWay(int row, int lane) const;
+  bool holdsBothWays(int lane) const;
+  std::array<int, W> placesOf(std::size_t body) const;
+  void pushAlone(std::size_t body, const std::array<int, W>& places, int component);
+  void noteResponse(const std::array<int, W>& from, int component);
 
   int lanes_ = 0;
   std::array<Articulation*, W> of_{};
@@ -147,12 +177,15 @@ class JointPacks {
   void leave(const JointStage& stage, double most);
   // Evaluates the rows, and solves for positions: `first` begins a substep.
   void solvePositions(const JointStage& stage, bool first);
+  // What was given to bodies since, by the same rows.
+  void followPositions(const JointStage& stage);
   // As often as it takes until what is off is `tolerance` of the arms, before another step.
   void closePositions(const JointStage& stage, double tolerance);
   // Evaluates at the end of the substep; then, as often as contacts are swept:
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
   void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
+  void respond();                                  // of those that ask: `Articulation::response`
   void finish(Kinds& kinds, double h);             // multipliers back to the kinds' sets
 
  private:

@@ -70,7 +70,10 @@ struct alignas(32) ContactBlock {
   int points = kPoints;     // no lane has more
 };
 
+enum class ContactRows : char { kAll, kNormal, kFriction };
+
 struct VelocitySweep {
+  ContactRows rows = ContactRows::kAll;
   bool first = false, last = false;  // of a substep: gaps are measured, the change is summed up
 };
 

@@ -185,16 +185,18 @@ inline void measureBlock(ContactBlock& m, const LaneMotion* motions) {
 
 template <int kCount>
 inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions, VelocitySweep which) {
-  if (which.first) measureBlock<kCount>(m, motions);
+  if (which.first && which.rows != ContactRows::kFriction) measureBlock<kCount>(m, motions);
   Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
   const Lanes3 n = load(m.n), between = a.u - b.u;
   const Lanes zero = all(0), along = dot(n, between);
+  const bool holds = which.rows != ContactRows::kFriction;
   Lanes v[kCount], deltas[kCount], normal = zero, turning = zero, sum = zero;
   for (int i = 0; i < kCount; ++i) v[i] = rateOf(m.point[i], along, a, b);
   for (int i = 0; i < kCount; ++i) {
     ContactBlock::Point& p = m.point[i];
     const Lanes lambda = load(p.lambda);
-    const Lanes total = larger(lambda - load(p.inverse) * (v[i] + load(p.open)), zero);
+    const Lanes total =
+        holds ? larger(lambda - load(p.inverse) * (v[i] + load(p.open)), zero) : lambda;
     const Lanes delta = deltas[i] = total - lambda;
     store(p.lambda, total);
     tellOthers(m, i, delta, v);
@@ -203,7 +205,7 @@ inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions, VelocityS
     normal = normal + total;
     turning = turning + load(p.lever) * total;
   }
-  if (which.last) {
+  if (which.last && holds) {
     Lanes change = zero;
     for (int i = 0; i < kCount; ++i) {
       const Lanes inverse = load(m.point[i].inverse), squared = deltas[i] * deltas[i];
@@ -211,8 +213,9 @@ inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions, VelocityS
     }
     store(m.change, change);
   }
-  const Lanes3 friction = sweepFriction(m, normal, turning, between, a, b);
-  push(m, n * sum + friction, a, b);
+  Lanes3 impulse = n * sum;
+  if (which.rows != ContactRows::kNormal) impulse = impulse + sweepFriction(m, normal, turning, between, a, b);
+  push(m, impulse, a, b);
   scatter(m.bodyA, load(m.massA), a, motions);
   scatter(m.bodyB, load(m.massB), b, motions);
 }

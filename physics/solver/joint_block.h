@@ -133,6 +133,9 @@ struct JointKernels {
   // right <- A^-1 right; limits that would pass their bound are held there, to be so from `apply`
   // on
   void (*substitute)(const System&);
+  // u, theta: what bodies would move by without joints -> what they do, for so little that no bound
+  // is reached: `open` is 0.
+  void (*follow)(const System&);
   void (*apply)(const System&);  // lambda += right, u += M^-1 J^T right
 };
 

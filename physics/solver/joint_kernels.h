@@ -207,15 +207,15 @@ void substitute(const Of<N>& s) {
   }
 }
 
+// u += M^-1 J^T right
 template <class N>
-void apply(const Of<N>& s) {
+void give(const Of<N>& s) {
   for (int i = 0; i < s.rowCount; ++i) {
     if (!s.used[i]) continue;
     const JointShape& shape = s.shapes[i];
     auto& row = s.rows[i];
     const Triple<N> change = load3<N>(row.right);
     const N parts[3] = {change.x, change.y, change.z};
-    store3(row.lambda, load3<N>(row.lambda) + change);
     for (int b = 0; b < shape.bodyCount; ++b) {
       if (!shape.moves[b]) continue;
       auto& body = s.bodies[shape.body[b]];
@@ -230,6 +230,34 @@ void apply(const Of<N>& s) {
       store3(body.theta, theta);
     }
   }
+}
+
+template <class N>
+void follow(const Of<N>& s) {
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    auto& row = s.rows[i];
+    const Triple<N> t = along<N>(s, i, [](const auto& body, auto& u, auto& theta) {
+      u = load3<N>(body.u);
+      theta = load3<N>(body.theta);
+    });
+    const N zero = all<N>(0), free = load(row.free);
+    store(row.right[0], wherePositive(free, zero - t.x, zero));
+    store(row.right[1], wherePositive(free, zero - t.y, zero));
+    store(row.right[2], wherePositive(free, zero - t.z, zero));
+  }
+  substitute<N>(s);
+  give<N>(s);
+}
+
+template <class N>
+void apply(const Of<N>& s) {
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    auto& row = s.rows[i];
+    store3(row.lambda, load3<N>(row.lambda) + load3<N>(row.right));
+  }
+  give<N>(s);
   for (int i = 0; i < *s.tail.count; ++i) {
     store(s.rows[s.tailStart + s.tail.places[i]].free, load(s.tail.free[i]));
   }
@@ -239,7 +267,7 @@ template <class N>
 constexpr JointKernels<N::kWidth> tableOf() {
   return {place<N>,     seeGaps<N>,         seeLimits<N>,  chooseLimits<N>,
           factorize<N>, findChanged<N>,     respondAll<N>, aimAtErrors<N>,
-          findOpen<N>,  aimAtVelocities<N>, substitute<N>, apply<N>};
+          findOpen<N>,  aimAtVelocities<N>, substitute<N>, follow<N>, apply<N>};
 }
 
 }  // namespace

@@ -130,6 +130,15 @@ Vec3 clamped(const JointShape& shape, const JointLanes<W>& row, int l, const Vec
   return inside;
 }
 
+// I^-1 torque
+template <int W>
+Vec3 turnBy(const JointBody<W>& body, int l, const Vec3& torque) {
+  const auto inertia = [&](int k) { return body.inertia[k].v[l]; };
+  const Vec3 x(inertia(0), inertia(3), inertia(4)), y(inertia(3), inertia(1), inertia(5)),
+      z(inertia(4), inertia(5), inertia(2));
+  return {x.dot(torque), y.dot(torque), z.dot(torque)};
+}
+
 // u += M^-1 J^T change, of one lane.
 template <int W>
 void give(const JointShape& shape, const JointLanes<W>& row, int l, const Vec3& change,
@@ -142,11 +151,8 @@ void give(const JointShape& shape, const JointLanes<W>& row, int l, const Vec3& 
       if (shape.hasLinear) push += change[r] * read(row.linear[b] + 3 * r, l);
       if (shape.hasAngular) turn += change[r] * read(row.angular[b] + 3 * r, l);
     }
-    const auto inertia = [&](int k) { return body.inertia[k].v[l]; };
-    const Vec3 x(inertia(0), inertia(3), inertia(4)), y(inertia(3), inertia(1), inertia(5)),
-        z(inertia(4), inertia(5), inertia(2));
     write(body.u, l, read(body.u, l) + body.inverseMass.v[l] * push);
-    write(body.theta, l, read(body.theta, l) + Vec3(x.dot(turn), y.dot(turn), z.dot(turn)));
+    write(body.theta, l, read(body.theta, l) + turnBy(body, l, turn));
   }
 }
 

@@ -393,6 +393,14 @@ void JointPack<W>::solvePositions(const JointStage& stage, bool first) {
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
+template <int W>
+void JointPack<W>::followPositions(const JointStage& stage) {
+  openAll();
+  gatherMotion<W>(ids_, stage.moved, bodies_);
+  step();
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+}
+
 // What the rows of a lane are off by, at the most, squared.
 template <int W>
 double JointPack<W>::offOf(int l) const {
@@ -534,7 +542,19 @@ void JointPack<W>::noteCarried() {
 }
 
 template <int W>
+bool JointPack<W>::holdsBothWays(int l) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (topology_->shapes[i].isGap) continue;
+    if (topology_->shapes[i].seen != JointSeen::kByKind) return false;
+    if (!states_[i].active[l]) continue;
+    if (states_[i].role[l] != JointRow::Role::kConstraint || isBounded(rows_[i], l)) return false;
+  }
+  return true;
+}
+
+template <int W>
 void JointPack<W>::finish(Kinds& kinds, double h) {
+  for (int l = 0; l < lanes_; ++l) of_[l]->holdsBothWays_ = holdsBothWays(l);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const JointLanes<W>& row = rows_[i];
     for (int l = 0; l < lanes_; ++l) {

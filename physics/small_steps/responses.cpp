@@ -1,0 +1,163 @@
+// Contacts that see what joints make of what they give: the articulated mass behind a body, and the
+// way that its neighbours go.
+#include <Eigen/Core>
+#include <algorithm>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+
+bool SmallSteps::Impl::meetsResponse(const KeptContact& c) const {
+  const int a = articulationOf[c.a], b = articulationOf[c.b];
+  return (a >= 0 && responding[a]) || (b >= 0 && responding[b]);
+}
+
+// Which bodies of the articulations that respond contacts touch.
+void SmallSteps::Impl::takeResponses(Batch& batch) {
+  batch.responders.clear();
+  const auto responds = [&](int k) { return responding[k] != 0; };
+  if (std::none_of(batch.articulations.begin(), batch.articulations.end(), responds)) return;
+  batch.responders.resize(batch.slots.size());
+  for (const int k : batch.articulations) {
+    JointResponse& response = articulations[k].response();
+    response.at.assign(articulations[k].allBodies().size(), -1);
+    response.slots.clear();
+  }
+  for (const int c : batch.contacts) {
+    for (const BodyId i : {contacts[c].a, contacts[c].b}) {
+      const int k = articulationOf[i];
+      if (k < 0 || !responding[k]) continue;
+      JointResponse& response = articulations[k].response();
+      const auto all = articulations[k].allBodies();
+      const auto body = std::lower_bound(all.begin(), all.end(), i) - all.begin();
+      if (response.at[body] >= 0) continue;
+      response.at[body] = static_cast<int>(response.size());
+      batch.responders[slotOf[i]] = {k, response.at[body]};
+      response.slots.push_back(slotOf[i]);
+    }
+  }
+  for (const int k : batch.articulations) articulations[k].response().makeRoom();
+}
+
+namespace {
+
+using Six = Eigen::Matrix<double, 6, 1>;
+using SixBySix = Eigen::Matrix<double, 6, 6>;
+
+SixBySix blockOf(const JointResponse& r, int to, int from) {
+  using Columns = Eigen::Matrix<float, JointResponse::kColumn, 6>;
+  return Eigen::Map<const Columns>(r.block(to, from)).topRows<6>().cast<double>();
+}
+
+Six rowOf(const float (&d)[3][8], const float (&w)[3][8], int l) {
+  Six j;
+  j << d[0][l], d[1][l], d[2][l], w[0][l], w[1][l], w[2][l];
+  return j;
+}
+
+// The rows of a lane: points, two of friction, twist; and what its bodies make of them.
+struct LaneRows {
+  static constexpr int kFriction = ContactBlock::kPoints, kTwist = kFriction + 2;
+  Six a[kTwist + 1], b[kTwist + 1];
+  SixBySix ofA = SixBySix::Zero(), ofB = SixBySix::Zero(), across = SixBySix::Zero();
+
+  LaneRows(const ContactBlock& m, int l) {
+    constexpr float kNone[3][8] = {};
+    for (int k = 0; k < m.points; ++k) {
+      a[k] = rowOf(m.n, m.point[k].wA, l);
+      b[k] = rowOf(m.n, m.point[k].wB, l);
+    }
+    for (int t = 0; t < 2; ++t) {
+      a[kFriction + t] = rowOf(m.tangent[t].d, m.tangent[t].wA, l);
+      b[kFriction + t] = rowOf(m.tangent[t].d, m.tangent[t].wB, l);
+    }
+    a[kTwist] = rowOf(kNone, m.twistA, l);
+    b[kTwist] = rowOf(kNone, m.twistB, l);
+  }
+  // J R J^T
+  double between(int r, int c) const {
+    return a[r].dot(ofA * a[c]) + b[r].dot(ofB * b[c]) - a[r].dot(across * b[c]) -
+           a[c].dot(across * b[r]);
+  }
+};
+
+void takeRows(const LaneRows& rows, int l, ContactBlock& m) {
+  constexpr int kFriction = LaneRows::kFriction, kTwist = LaneRows::kTwist;
+  for (int k = 0; k < m.points; ++k) {
+    if (!(m.point[k].inverse[l] > 0)) continue;
+    m.point[k].inverse[l] = static_cast<float>(1 / rows.between(k, k));
+    for (int i = 0; i < k; ++i) {
+      m.coupling[i == 0 ? k - 1 : i + k][l] = static_cast<float>(rows.between(i, k));
+    }
+  }
+  const double a11 = rows.between(kFriction, kFriction),
+               a22 = rows.between(kFriction + 1, kFriction + 1);
+  const double a12 = rows.between(kFriction, kFriction + 1), determinant = a11 * a22 - a12 * a12;
+  m.inverse11[l] = static_cast<float>(a22 / determinant);
+  m.inverse12[l] = static_cast<float>(-a12 / determinant);
+  m.inverse22[l] = static_cast<float>(a11 / determinant);
+  if (m.twistInverse[l] > 0)
+    m.twistInverse[l] = static_cast<float>(1 / rows.between(kTwist, kTwist));
+  for (int t = 0; t < 2; ++t) {
+    m.tangent[t].twisted[l] = static_cast<float>(rows.between(kFriction + t, kTwist));
+  }
+}
+
+}  // namespace
+
+// A = J R J^T of the rows of a lane.
+void SmallSteps::Impl::prepareResponses(Batch& batch, ContactBlock& m, int l) const {
+  LaneRows rows(m, l);
+  const auto own = [&](int slot, SixBySix& response) {
+    const Responder& r = batch.responders[slot];
+    if (r.articulation >= 0) {
+      response = blockOf(articulations[r.articulation].response(), r.place, r.place);
+    } else if (slot > 0) {
+      response.diagonal() << Vec3::Constant(batch.masses[slot].inverse), Vec3::Ones();
+    }
+  };
+  own(m.bodyA[l], rows.ofA);
+  own(m.bodyB[l], rows.ofB);
+  const Responder &a = batch.responders[m.bodyA[l]], &b = batch.responders[m.bodyB[l]];
+  if (a.articulation >= 0 && a.articulation == b.articulation) {
+    rows.across = blockOf(articulations[a.articulation].response(), a.place, b.place);
+  }
+  takeRows(rows, l, m);
+}
+
+// Where joints are as the stage finds them.
+void SmallSteps::Impl::respond(Batch& batch) {
+  if (batch.responders.empty()) return;
+  for (const int k : batch.articulations) {
+    JointResponse& response = articulations[k].response();
+    for (std::size_t i = 0; i < response.size(); ++i) {
+      response.masses[i] = batch.masses[response.slots[i]];
+    }
+  }
+  batch.joints.respond();
+  for (const BlockRun& run : batch.runs) {
+    for (int k = run.first; run.responds && k < run.first + run.count; ++k) {
+      for (int l = 0; l < ContactBlock::kLanes; ++l) {
+        if (batch.blocks[k].contact[l] >= 0) prepareResponses(batch, batch.blocks[k], l);
+      }
+    }
+  }
+}
+
+void SmallSteps::Impl::spread(Batch& batch, int slot, const float (&given)[6]) const {
+  Responder& from = batch.responders[slot];
+  const JointResponse& response = articulations[from.articulation].response();
+  for (int c = 0; c < 6; ++c) from.given[c] += given[c];
+  for (std::size_t to = 0; to < response.size(); ++to) {
+    LaneMotion& motion = batch.motions[response.slots[to]];
+    const float* column = response.block(to, from.place);
+    for (int c = 0; c < 6; ++c, column += JointResponse::kColumn) {
+      for (int k = 0; k < 3; ++k) {
+        motion.u[k] += column[k] * given[c];
+        motion.turn[k] += column[3 + k] * given[c];
+      }
+    }
+  }
+}
+
+}  // namespace physics
