@@ -61,16 +61,4 @@ void SmallSteps::Impl::fromLanes(Model& w, Batch& batch) {
   });
 }
 
-// Rows are prepared once and hold for the substeps that follow, but where a body has turned so far
-// that its arms and inertia are others.
-bool SmallSteps::Impl::turnedFar(const Batch& batch) const {
-  constexpr double kFar = 0.05;  // rad
-  for (std::size_t s = 1; s < batch.motions.size(); ++s) {
-    const auto& turn = batch.motions[s].dturn;
-    const Vec3 theta = rotationOf(batch.masses[s], Vec3(turn[0], turn[1], turn[2]));
-    if (theta.squaredNorm() > kFar * kFar) return true;
-  }
-  return false;
-}
-
 }  // namespace physics

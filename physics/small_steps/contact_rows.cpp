@@ -119,15 +119,6 @@ void put(float (&to)[3][8], int l, const Vec3& v) {
   for (int k = 0; k < 3; ++k) to[k][l] = static_cast<float>(v[k]);
 }
 
-void emptyLane(ContactBlock& block, int l) {
-  block.bodyA[l] = block.bodyB[l] = 0;
-  put(block.n, l, Vec3::UnitY());
-  block.scale[l] = 1;
-  block.rate[l] = block.staticFriction[l] = block.dynamicFriction[l] = 0;
-  block.twist[l] = block.change[l] = 0;
-  for (auto& t : block.tangent) t.lambda[l] = 0;
-}
-
 void emptyPoint(ContactBlock& block, int k, int l) {
   ContactBlock::Point& p = block.point[k];
   put(p.wA, l, Vec3::Zero());
@@ -147,19 +138,37 @@ double heldPart(const KeptContact& c) {
   return held > 0 ? kHeld * std::min(1.0, carried / (c.step * c.step * held)) : 0;
 }
 
-// Normal, arms, gaps and loads of lane l: kept multipliers are scaled, and those of the start by
-// `held`.
-void fillPoints(const KeptContact& c, std::span<const Pose> pose, double scale, double held,
-                ContactBlock& block, int l) {
+// What lane l carried, of c: kept multipliers are scaled, and those of the start by `held`.
+void fillLoads(const KeptContact& c, double scale, double held, ContactBlock& block, int l) {
+  block.twist[l] = static_cast<float>(scale * c.twist);
+  block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
+  block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
+  block.change[l] = static_cast<float>(scale * c.tangential.z());
+  for (int k = 0; k < c.count; ++k) {
+    block.point[k].lambda[l] = static_cast<float>(scale * c.lambda[k]);
+    block.held[k][l] = static_cast<float>(held * c.held[k]);
+  }
+}
+
+}  // namespace
+
+void emptyLane(ContactBlock& block, int l) {
+  block.bodyA[l] = block.bodyB[l] = 0;
+  put(block.n, l, Vec3::UnitY());
+  block.scale[l] = 1;
+  block.rate[l] = block.staticFriction[l] = block.dynamicFriction[l] = 0;
+  block.twist[l] = block.change[l] = 0;
+  for (auto& t : block.tangent) t.lambda[l] = 0;
+  for (int k = 0; k < block.points; ++k) emptyPoint(block, k, l);
+}
+
+// The surfaces at the present poses.
+void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& block, int l) {
   const Vec3 n = normalOf(c, pose), apart = pose[c.a].x - pose[c.b].x;
   const Mat3 rotationA = pose[c.a].q.toRotationMatrix(), rotationB = pose[c.b].q.toRotationMatrix();
   put(block.n, l, n);
-  for (int k = 0; k < block.points; ++k) {
+  for (int k = 0; k < c.count; ++k) {
     ContactBlock::Point& p = block.point[k];
-    if (k >= c.count) {
-      emptyPoint(block, k, l);
-      continue;
-    }
     const ContactPoint& shape = c.points[k];
     const Vec3 onA = rotationA * shape.coreA - shape.radiusA * n;  // from a's centre
     const Vec3 onB = rotationB * shape.coreB + shape.radiusB * n;  // from b's
@@ -167,13 +176,10 @@ void fillPoints(const KeptContact& c, std::span<const Pose> pose, double scale, 
     put(p.wA, l, onA - half);
     put(p.wB, l, onB + half);
     block.gap[k][l] = static_cast<float>(gap.dot(n));
-    p.lambda[l] = static_cast<float>(scale * c.lambda[k]);
-    block.held[k][l] = static_cast<float>(held * c.held[k]);
     p.inverse[l] = 1;
   }
+  for (int k = c.count; k < block.points; ++k) emptyPoint(block, k, l);
 }
-
-}  // namespace
 
 // Rows of a block at the present poses, for substeps of h.
 void SmallSteps::Impl::fill(const Model& w, double h, ContactBlock& block) const {
@@ -183,7 +189,6 @@ void SmallSteps::Impl::fill(const Model& w, double h, ContactBlock& block) const
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (block.contact[l] < 0) {
       emptyLane(block, l);
-      for (int k = 0; k < block.points; ++k) emptyPoint(block, k, l);
       continue;
     }
     const KeptContact& c = contacts[block.contact[l]];
@@ -196,11 +201,8 @@ void SmallSteps::Impl::fill(const Model& w, double h, ContactBlock& block) const
     block.rate[l] = soft.rate;
     block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
     block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
-    block.twist[l] = static_cast<float>(scale * c.twist);
-    block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
-    block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
-    block.change[l] = static_cast<float>(scale * c.tangential.z());
-    fillPoints(c, b.pose, scale, h * h * heldPart(c), block, l);
+    placeLane(c, b.pose, block, l);
+    fillLoads(c, scale, h * h * heldPart(c), block, l);
   }
 }
 
@@ -208,8 +210,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
   w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
     for (int s = std::max(from, 1); s < to; ++s) {
       batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
-      LaneMotion& motion = batch.motions[s];
-      for (int k = 0; k < 3; ++k) motion.du[k] = motion.dturn[k] = 0;
+      startRows(batch.motions[s]);
     }
   });
   const float reach = static_cast<float>(w.settings.contact->margin);

@@ -82,9 +82,8 @@ void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
     batch.joints.take(articulations, batch.articulations);
     for (int i = 0; i < count; ++i) {
       predict(w, batch, h, i == 0);
-      const bool turned = i > 0 && turnedFar(batch);
-      if (turned) takeOver(w, batch, h);
-      if ((i == 0 || turned) && !batch.blocks.empty()) rows(w, batch, h);
+      if (i == 0 && !batch.blocks.empty()) rows(w, batch, h);
+      if (i > 0) renewTurned(w, batch);
       lookAgain(w, batch, h);
       noteApproach(w, batch, h);
       substep(w, batch, h, report);

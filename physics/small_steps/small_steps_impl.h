@@ -4,6 +4,7 @@
 //   contact_rows.cpp  contacts into the lanes that sweep over them, and back
 //   responses.cpp     contacts that see what joints make of what they give
 //   contact_motion.cpp bodies into these lanes, and back
+//   renew.cpp         rows anew of what has turned far
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds
 //   bounce.cpp        restitution
@@ -67,6 +68,7 @@ struct SmallSteps::Batch {
   std::vector<LaneStart> before;      // of the motions, when the bodies last knew of them
   std::vector<LaneMass> masses;
   std::vector<BodyId> slots;  // the body of each slot
+  std::vector<char> turned;   // by slot: so far that its rows are to be prepared anew
 
   // More than contacts of rigid bodies.
   bool isMixed() const {
@@ -74,7 +76,14 @@ struct SmallSteps::Batch {
   }
 };
 
-LaneMass laneMassOf(const JointMass& mass);
+// Rows are prepared where the body is now.
+inline void startRows(LaneMotion& motion) {
+  for (int k = 0; k < 3; ++k) motion.du[k] = motion.dturn[k] = 0;
+}
+
+// Lane l of a block: nothing; or the surfaces of a contact at these poses, without its loads.
+void emptyLane(ContactBlock& block, int l);
+void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& block, int l);
 
 struct SmallSteps::Impl {
   std::vector<KeptContact> contacts, before;
@@ -158,7 +167,9 @@ struct SmallSteps::Impl {
   void solveVelocities(Model& w, Batch& batch, double h);
   void sweepSoft(Batch& batch);
   void substep(Model& w, Batch& batch, double h, StepReport& report);
-  bool turnedFar(const Batch& batch) const;
+  static bool findTurned(Batch& batch);
+  void renew(const Model& w, const Batch& batch, ContactBlock& block) const;
+  void renewTurned(Model& w, Batch& batch);
   void takeOver(Model& w, Batch& batch, double h);
   void takeOver(const ContactBlock& block, double h);
   void weighMotion(const Model& w, const Batch& batch, double h);

@@ -125,6 +125,25 @@ TEST(SmallSteps, AFastPairElsewhereDoesNotMoveAByte) {
   expectSameAlone(4, build);
 }
 
+// Neither where the other turns so far in a step that its rows are prepared anew.
+TEST(SmallSteps, ASpinningBoxElsewhereDoesNotMoveAByte) {
+  const auto build = [](World& world, bool withNeighbour) {
+    addGround(world);
+    const BodyId first = addStack(world, 4);
+    for (BodyId k = 0; k < 4; ++k) {
+      world.setVelocity(first + k, {Vec3(0.05, 0, 0.1), Vec3(0.1, 2 - k, 0.2)});
+    }
+    if (withNeighbour) {
+      const BodyId spinning = addStack(world, 4, 30);
+      for (BodyId k = 0; k < 4; ++k) {
+        world.setVelocity(spinning + k, {Vec3::Zero(), Vec3(0, 10 + 5 * k, 0)});
+      }
+    }
+    return first;
+  };
+  expectSameAlone(4, build);
+}
+
 // Joints are closed as far where something rests elsewhere, with as many substeps and sweeps.
 TEST(SmallSteps, AStackElsewhereDoesNotMoveAByteOfAChain) {
   const auto build = [](World& world, bool withStack) {

@@ -1,0 +1,106 @@
+// Rows of contacts anew where a body has turned so far that its arms and inertia are others.
+#include <cstddef>
+#include <cstring>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+namespace {
+
+constexpr double kFar = 0.05;  // rad
+
+// Lane l of one block to another, which lies as eight numbers a row.
+void copyLane(const ContactBlock& from, int l, ContactBlock& to) {
+  constexpr std::size_t kNumber = sizeof(float), kRow = ContactBlock::kLanes * kNumber;
+  const auto* source = reinterpret_cast<const unsigned char*>(&from) + l * kNumber;
+  auto* target = reinterpret_cast<unsigned char*>(&to) + l * kNumber;
+  for (std::size_t i = 0; i < offsetof(ContactBlock, points); i += kRow) {
+    std::memcpy(target + i, source + i, kNumber);
+  }
+}
+
+// What lane l carries by now, for prepare(): friction as a vector of the world.
+void keepLoads(const ContactBlock& now, int l, ContactBlock& fresh) {
+  float last[3] = {};
+  for (const auto& t : now.tangent) {
+    for (int k = 0; k < 3; ++k) last[k] += t.lambda[l] * t.d[k][l];
+  }
+  fresh.tangent[0].lambda[l] = last[0];
+  fresh.tangent[1].lambda[l] = last[1];
+  fresh.change[l] = last[2];
+  for (int k = 0; k < now.points; ++k) fresh.point[k].lambda[l] = now.point[k].lambda[l];
+}
+
+// The part of a gap that body `side` of lane l has moved by since its rows were prepared.
+float movedBy(const float (&n)[3][8], const float (&w)[3][8], int l, const LaneMotion& motion) {
+  float sum = 0;
+  for (int k = 0; k < 3; ++k) sum += n[k][l] * motion.du[k] + w[k][l] * motion.dturn[k];
+  return sum;
+}
+
+// Gaps are measured from where each body was when its rows were prepared, and of a pair only one
+// may stand there now.
+void measureFromStart(const std::vector<LaneMotion>& motions, int l, ContactBlock& block) {
+  const LaneMotion &a = motions[block.bodyA[l]], &b = motions[block.bodyB[l]];
+  for (int k = 0; k < block.points; ++k) {
+    const auto& p = block.point[k];
+    block.gap[k][l] -= movedBy(block.n, p.wA, l, a) - movedBy(block.n, p.wB, l, b);
+  }
+}
+
+}  // namespace
+
+// True: some of the batch have turned far, and the rows of those are to be prepared anew.
+bool SmallSteps::Impl::findTurned(Batch& batch) {
+  bool some = false;
+  batch.turned.assign(batch.motions.size(), 0);
+  for (std::size_t s = 1; s < batch.motions.size(); ++s) {
+    const auto& turn = batch.motions[s].dturn;
+    const Vec3 theta = rotationOf(batch.masses[s], Vec3(turn[0], turn[1], turn[2]));
+    if (theta.squaredNorm() <= kFar * kFar) continue;
+    batch.turned[s] = 1;
+    some = true;
+  }
+  return some;
+}
+
+// Lanes with a body that turned far; the others keep every byte.
+void SmallSteps::Impl::renew(const Model& w, const Batch& batch, ContactBlock& block) const {
+  const auto isTurned = [&](int l) {
+    return block.contact[l] >= 0 && (batch.turned[block.bodyA[l]] || batch.turned[block.bodyB[l]]);
+  };
+  unsigned lanes = 0;
+  for (int l = 0; l < ContactBlock::kLanes; ++l) lanes |= unsigned{isTurned(l)} << l;
+  if (lanes == 0) return;
+  ContactBlock fresh = block;
+  for (int l = 0; l < ContactBlock::kLanes; ++l) {
+    if (lanes >> l & 1) {
+      placeLane(contacts[block.contact[l]], w.bodies.pose, fresh, l);
+      keepLoads(block, l, fresh);
+    } else {
+      emptyLane(fresh, l);
+    }
+  }
+  const float reach = static_cast<float>(w.settings.contact->margin);
+  contactKernels().prepare(&fresh, 1, batch.masses.data(), reach);
+  for (int l = 0; l < ContactBlock::kLanes; ++l) {
+    if (!(lanes >> l & 1)) continue;
+    measureFromStart(batch.motions, l, fresh);
+    copyLane(fresh, l, block);
+  }
+}
+
+void SmallSteps::Impl::renewTurned(Model& w, Batch& batch) {
+  if (batch.blocks.empty() || !findTurned(batch)) return;
+  for (std::size_t s = 1; s < batch.slots.size(); ++s) {
+    if (!batch.turned[s]) continue;
+    batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
+    startRows(batch.motions[s]);
+  }
+  w.workers.forEachChunk(static_cast<int>(batch.blocks.size()), kLeastBlocks,
+                         [&](int from, int to) {
+                           for (int i = from; i < to; ++i) renew(w, batch, batch.blocks[i]);
+                         });
+}
+
+}  // namespace physics
