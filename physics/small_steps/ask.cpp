@@ -7,8 +7,9 @@
 namespace physics {
 namespace {
 
-// What contacts may give way by on the average of their load, as a share of the smaller body.
-constexpr double kLargestSag = 1.25e-4;
+// What contacts may give way by on the average of their load: as a share of the smaller body, or of
+// what the two move past each other in a step, whose end is known no better than that.
+constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 0.1;
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 constexpr double kLargestTurn =
     0.05;  // rad, of what is solved at once: its rows are taken as straight
@@ -28,6 +29,12 @@ int substepsFor(int present, double times) {
 // What goes with h, of pieces that turn by so much in a step [rad].
 int substepsForTurn(double turn) {
   return static_cast<int>(std::min<double>(std::ceil(turn / kLargestTurn), kMostSubsteps));
+}
+
+// The sag that is small enough for a contact [m].
+double smallSag(const Bodies& b, const KeptContact& c, double size, double dt) {
+  const double way = dt * (b.velocity[c.a].v - b.velocity[c.b].v).norm();
+  return std::max(kLargestSag * size, kLargestSagOfWay * way);
 }
 
 }  // namespace
@@ -58,11 +65,12 @@ void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch) {
       const bool jointed = articulationOf[c.a] >= 0 || articulationOf[c.b] >= 0;
       const double size = std::min(radius[c.a], radius[c.b]);
       if (!(size > 0) || jointed) continue;
+      const double small = smallSag(b, c, size, w.settings.dt);
       for (int k = 0; k < c.count; ++k) {
         const double inverse = block.point[k].inverse[l];
         const double lambda = std::min(c.lambda[k], c.before[k]);
         if (!(inverse > 0)) continue;
-        load[root] += lambda;
+        load[root] += lambda * small / size;
         sag[root] += lambda * soft * lambda / inverse / size;
       }
     }
@@ -133,8 +141,7 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {
-      const double off = sag[root] / load[root];
-      asked[i] = std::max(asked[i], substepsFor(batch.substeps, off / kLargestSag));
+      asked[i] = std::max(asked[i], substepsFor(batch.substeps, sag[root] / load[root]));
     }
     const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;
