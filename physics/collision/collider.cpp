@@ -16,9 +16,14 @@ using namespace collision;
 
 namespace {
 
-constexpr double kStill = 1e-4;  // of the size, and rad: a pair that moved less keeps its manifold
-constexpr double kShort = 0.1;   // of the thickness
-constexpr double kSpare = 0.1;   // of the margin: looked further than asked, so that manifolds last
+// A pair that moved less keeps its manifold, of the size and in rad: at rest, and in motion. Points
+// are carried by both bodies, so that their gaps are off by the square of it.
+constexpr double kStill = 1e-4, kStillInMotion = 3e-3;
+constexpr double kStillOfMargin = 0.25;  // then no point that is near was missed
+constexpr double kLooksInMotion =
+    2;                          // that it is kept for, so that what comes to rest is looked at
+constexpr double kShort = 0.1;  // of the thickness
+constexpr double kSpare = 0.1;  // of the margin: looked further than asked, so that manifolds last
 
 double smallerSize(const Solid& a, const Solid& b) {
   if (a.size == 0 || b.size == 0) return a.size + b.size;
@@ -60,13 +65,21 @@ struct Collider::Impl {
     return true;
   }
 
+  // What a pair may have moved by, as a share of its size, and keep its manifold.
+  double stillFor(const Item& a, const Item& b, double size) const {
+    const double way = kLooksInMotion * ((a.move - b.move).norm() + a.turn + b.turn);
+    const double most = std::min(kStillInMotion * size, kStillOfMargin * step.margin);
+    return std::max(kStill, std::min(way, most) / size);
+  }
+
   // Whether what was found before still holds for surfaces up to `reach` apart.
-  static bool holds(const Watch& watch, const Finding& found, const Item& a, const Item& b,
-                    const Relative& pose, double reach) {
-    if (reach > watch.reach) return false;
-    const double still = kStill * smallerSize(a.solid, b.solid);
-    return (pose.t - found.pose.t).squaredNorm() <= still * still &&
-           (pose.R - found.pose.R).squaredNorm() <= 2 * kStill * kStill;
+  bool holds(const Watch& watch, const Finding& found, const Item& a, const Item& b,
+             const Relative& pose, double reach) const {
+    const double size = smallerSize(a.solid, b.solid);
+    if (reach > watch.reach || !(size > 0)) return false;
+    const double still = stillFor(a, b, size);
+    return (pose.t - found.pose.t).squaredNorm() <= still * still * size * size &&
+           (pose.R - found.pose.R).squaredNorm() <= 2 * still * still;
   }
 
   // Of a way that short, the present points tell enough of what is at its end.
