@@ -113,6 +113,7 @@ Watch Pairs::newWatch(int p, int q) {
   if (free_.empty()) {
     free_.push_back(static_cast<int>(findings_.size()));
     findings_.emplace_back();
+    free_.reserve(findings_.capacity());  // then it allocates nothing when pairs part
   }
   Watch watch;
   watch.a = p;

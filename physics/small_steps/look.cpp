@@ -1,5 +1,7 @@
 // The contacts of a step, and which islands look for them twice.
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 
 #include "physics/small_steps/small_steps_impl.h"
 
@@ -74,16 +76,22 @@ bool SmallSteps::Impl::lookSoft(Model& w) {
   return false;
 }
 
-// Contacts of points and links from the batches, in the collider's order.
+// Contacts of points and links from the batches, in the collider's order. Its own order among those
+// of an element and a body stays: std::stable_sort would allocate.
 void SmallSteps::Impl::gatherSoft(Model& w) {
   if (w.softCollider.empty()) return;
+  gathered.assign(w.softContacts.begin(), w.softContacts.end());
   for (std::size_t k = 0; k < batchCount; ++k) {
-    w.softContacts.insert(w.softContacts.end(), batches[k].soft.begin(), batches[k].soft.end());
+    gathered.insert(gathered.end(), batches[k].soft.begin(), batches[k].soft.end());
   }
-  std::stable_sort(w.softContacts.begin(), w.softContacts.end(),
-                   [](const SoftContact& a, const SoftContact& b) {
-                     return a.element != b.element ? a.element < b.element : a.body < b.body;
-                   });
+  gatherOrder.resize(gathered.size());
+  std::iota(gatherOrder.begin(), gatherOrder.end(), 0);
+  std::sort(gatherOrder.begin(), gatherOrder.end(), [&](int i, int j) {
+    const SoftContact &a = gathered[i], &b = gathered[j];
+    return std::tie(a.element, a.body, i) < std::tie(b.element, b.body, j);
+  });
+  w.softContacts.clear();
+  for (const int i : gatherOrder) w.softContacts.push_back(gathered[i]);
 }
 
 void SmallSteps::Impl::look(Model& w) {

@@ -186,6 +186,8 @@ struct SmallSteps::Impl {
   void fill(const Model& w, double h, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
   std::vector<SoftPair> softPairs;
+  std::vector<SoftContact> gathered;  // scratch, and its order
+  std::vector<int> gatherOrder;
   std::vector<BodyId> free;
 };
 

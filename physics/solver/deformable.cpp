@@ -2,7 +2,6 @@
 #include "physics/solver/deformable.h"
 
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -37,17 +36,14 @@ Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
   });
   int count = 0;
   for (auto& [body, index] : place) index = count++;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < count; ++i)
-    entries.emplace_back(i, i, 1.0 + static_cast<double>(refs.size()));
+  std::vector<std::array<int, 2>> entries;
+  for (int i = 0; i < count; ++i) entries.push_back({i, i});
   for (const auto& [a, b] : joined) {
-    entries.emplace_back(std::max(place[a], place[b]), std::min(place[a], place[b]), 1e-3);
+    entries.push_back({std::max(place[a], place[b]), std::min(place[a], place[b])});
   }
-  Eigen::SparseMatrix<double> graph(count, count);
-  graph.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(graph);
-  const Eigen::SparseMatrix<double> columns = factor.matrixL();
-  for (int i = 0; i < count; ++i) mesh.fill += std::pow(columns.col(i).nonZeros(), 2) / count;
+  SparseFactor factor;
+  factor.layOut(entries);
+  for (int i = 0; i < count; ++i) mesh.fill += std::pow(factor.lengthOf(i) + 1, 2) / count;
   return mesh;
 }
 

@@ -9,12 +9,12 @@
 // u, lambda: displacements of a substep, impulses times the step.
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "physics/solver/soft_rows.h"
+#include "physics/solver/sparse_factor.h"
 #include "physics/solver/swept_row.h"
 
 namespace physics {
@@ -40,11 +40,9 @@ inline constexpr double kRedundancy = 1e-7;
 // with the geometric stiffness K of what pulls, without which a heavy end on light links gains
 // energy. What is held at a bound keeps its place in the pattern.
 struct MeshFactor {
-  Eigen::SparseMatrix<double> matrix;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+  SparseFactor factor;
+  std::vector<std::array<int, 2>> entries;  // in the order that they are written in
   Eigen::VectorXd right, solution;
-  std::vector<Eigen::Triplet<double>> entries;  // in the order that they are written in
-  std::vector<Eigen::Index> slots;              // of each, in the matrix's values; once laid out
   bool stale = true;
 };
 
@@ -109,9 +107,10 @@ class Deformable {
   std::vector<Displacement> from_;             // by place: u_0
   std::vector<std::array<BodyId, 2>> pieces_;  // straight ones, between two points
   std::vector<SoftRow*> contacts_;
-  std::vector<std::array<BodyId, 3>> laid_;  // of the contacts that the factor has rows for
-  double push_ = 0;                          // overlap taken back in a substep, at the most [m]
-  std::vector<BodyId> bodies_;               // those that move, sorted
+  // Of the contacts: those that the factor has rows for, and those found.
+  std::vector<std::array<BodyId, 3>> laid_, found_;
+  double push_ = 0;             // overlap taken back in a substep, at the most [m]
+  std::vector<BodyId> bodies_;  // those that move, sorted
   std::size_t size_ = 0;
   const Kinds* kinds_ = nullptr;  // of the last prepare
 };

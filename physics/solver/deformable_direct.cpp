@@ -230,7 +230,7 @@ void Deformable::solveProgram(bool first, std::span<const Displacement> moved) {
   for (int round = 1;; ++round) {
     if (f.stale) factorize(true);
     aimAtPositions(moved);
-    f.solution = f.factor.solve(f.right);
+    f.factor.solve(f.right, f.solution);
     if (!chooseAgain(moved) || round == kMostRounds) return;
   }
 }
@@ -277,7 +277,7 @@ void Deformable::solveVelocities(std::span<Displacement> moved) {
     for (const SoftRow* row : contacts_) {
       f.right[at++] = row->held ? 0 : -errorNow(*row, positions, moved);
     }
-    f.solution = f.factor.solve(f.right);
+    f.factor.solve(f.right, f.solution);
     if (round == kMostRounds || !holdAtBounds(moved)) break;
   }
   for (std::size_t k = 0; k < bodies_.size(); ++k) {

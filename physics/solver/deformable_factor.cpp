@@ -27,8 +27,8 @@ int Deformable::placeOf(BodyId body) const {
 
 void Deformable::takeContacts(std::span<SoftRow> rows, double push) {
   contacts_.clear();
+  found_.clear();
   push_ = push;
-  std::vector<std::array<BodyId, 3>> found;
   for (SoftRow& row : rows) {
     const bool own = placeOf(row.from) >= 0 || placeOf(row.to) >= 0;
     if (!own || !(row.inverse > 0)) continue;
@@ -37,11 +37,11 @@ void Deformable::takeContacts(std::span<SoftRow> rows, double push) {
     row.lambda = row.next = 0;
     row.friction.setZero();
     contacts_.push_back(&row);
-    found.push_back({row.from, row.to, row.body});
+    found_.push_back({row.from, row.to, row.body});
   }
-  if (found == laid_) return;
-  laid_ = std::move(found);
-  factor_->slots.clear();
+  if (found_ == laid_) return;
+  std::swap(found_, laid_);
+  factor_->factor.forget();
 }
 
 void Deformable::takeMasses(std::span<const JointMass> masses) {
@@ -156,27 +156,15 @@ void Deformable::emit(bool positions, F&& entry) {
 void Deformable::factorize(bool positions) {
   MeshFactor& f = *factor_;
   f.stale = false;
-  if (f.slots.empty()) {
+  if (!f.factor.isLaidOut()) {
     f.entries.clear();
-    int size = 0;
-    emit(positions, [&](int row, int column, double value) {
-      f.entries.emplace_back(row, column, value);
-      size = std::max(size, row + 1);
-    });
-    f.matrix.resize(size, size);
-    f.matrix.setFromTriplets(f.entries.begin(), f.entries.end());
-    for (const auto& entry : f.entries) {
-      f.slots.push_back(&f.matrix.coeffRef(entry.row(), entry.col()) - f.matrix.valuePtr());
-    }
-    f.entries = {};
-    f.factor.analyzePattern(f.matrix);
-    f.right.resize(size);
-  } else {
-    std::fill_n(f.matrix.valuePtr(), f.matrix.nonZeros(), 0.0);
-    std::size_t next = 0;
-    emit(positions, [&](int, int, double value) { f.matrix.valuePtr()[f.slots[next++]] += value; });
+    emit(positions, [&](int row, int column, double) { f.entries.push_back({row, column}); });
+    f.factor.layOut(f.entries);
+    f.right.resize(f.factor.size());
   }
-  f.factor.factorize(f.matrix);
+  f.factor.begin();
+  emit(positions, [&](int, int, double value) { f.factor.give(value); });
+  f.factor.factorize();
 }
 
 }  // namespace physics
