@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "physics/base/rotation.h"
 #include "physics/make/soft.h"
 #include "scenes/table_reader.h"
 
@@ -161,7 +162,7 @@ void readValue(const Value& value, const Spot& spot, physics::Quat& out) {
     reader(physics::Field{"axis", Unit::kDirection, true}, axis);
     reader(physics::Field{"degrees", Unit::kDegrees, true}, angle);
     reader.finish();
-    out = Eigen::AngleAxisd(angle, axis.stableNormalized());
+    out = physics::exponential(angle * axis.stableNormalized());
     return;
   }
   arrayOf(4, value, spot, "[w, x, y, z] or { axis, degrees }");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/rotation.h"
 #include "scenes/recipe.h"
 
 namespace scenes {
@@ -36,7 +37,9 @@ void follow(const PoseScript& script, double time, physics::World& world) {
   }
   const auto [a, b, part] = between(script.keys, time);
   for (size_t i = 0; i < script.drives.size(); ++i) {
-    world.setDriveTarget(script.drives[i], a.targets[i].slerp(part, b.targets[i]));
+    const physics::Quat &from = a.targets[i], &to = b.targets[i];
+    const physics::Vec3 turn = physics::logarithm((to * from.conjugate()).normalized());
+    world.setDriveTarget(script.drives[i], physics::exponential(part * turn) * from);
   }
 }
 

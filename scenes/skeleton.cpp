@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "physics/base/rotation.h"
 #include "scenes/scene.h"
 #include "scenes/settings_reader.h"
 
@@ -94,8 +95,9 @@ void readJoint(TableReader& reader, physics::Skeleton& skeleton) {
 // Turns about x, then y, then z, in degrees.
 physics::Quat turnOf(const Vec3& degrees) {
   const Vec3 angle = degrees * M_PI / 180;
-  return Eigen::AngleAxisd(angle.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angle.y(), Vec3::UnitY()) *
-         Eigen::AngleAxisd(angle.x(), Vec3::UnitX());
+  return physics::exponential(angle.z() * Vec3::UnitZ()) *
+         physics::exponential(angle.y() * Vec3::UnitY()) *
+         physics::exponential(angle.x() * Vec3::UnitX());
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "physics/base/rotation.h"
+
 namespace physics {
 namespace {
 
@@ -27,7 +29,7 @@ std::vector<int> around(const Vec3& normal, std::vector<int> ids, std::span<cons
   std::vector<std::pair<double, int>> order;
   for (const int i : ids) {
     const Vec3 d = points[i] - centre;
-    const double angle = i == ids[0] ? 0 : std::atan2(d.dot(v), d.dot(u));
+    const double angle = i == ids[0] ? 0 : arcTangent(d.dot(v), d.dot(u));
     order.emplace_back(angle < 0 ? angle + 7 : angle, i);
   }
   std::sort(order.begin(), order.end());

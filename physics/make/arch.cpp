@@ -1,7 +1,7 @@
 // Voussoirs and springers as prisms of a polygon in the x-y plane.
 #include "physics/make/arch.h"
 
-#include <cmath>
+#include "physics/base/rotation.h"
 
 namespace physics {
 namespace {
@@ -21,13 +21,14 @@ BodyId addPrism(World& world, const ArchDef& def, std::span<const Vec2> polygon,
 
 std::vector<BodyId> add(World& world, const ArchDef& def) {
   const double half = 0.5 * def.angle;
-  const double centre = def.springerHeight - def.radius * std::cos(half);
+  const double centre = def.springerHeight - def.radius * sineCosine(half).cosine;
   // The point of joint i at this radius, from the left springing to the right one.
   const auto point = [&](int i, double radius) {
     const double angle = half * (2.0 * i / def.stones - 1);
     const bool level = i == 0 || i == def.stones;  // both springings at one height, bit for bit
-    const double rise = level ? std::cos(half) : std::cos(angle);
-    return Vec2(radius * std::sin(angle), centre + radius * rise);
+    const auto [sine, cosine] = sineCosine(angle);
+    const double rise = level ? sineCosine(half).cosine : cosine;
+    return Vec2(radius * sine, centre + radius * rise);
   };
   const double outer = def.radius + def.thickness;
   std::vector<BodyId> ids;

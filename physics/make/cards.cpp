@@ -3,15 +3,17 @@
 
 #include <cmath>
 
+#include "physics/base/rotation.h"
+
 namespace physics {
 namespace {
 
-Quat about(const Vec3& axis, double angle) { return Quat(Eigen::AngleAxisd(angle, axis)); }
+Quat about(const Vec3& axis, double angle) { return exponential(angle * axis); }
 
 }  // namespace
 
 std::vector<BodyId> add(World& world, const CardHouseDef& def) {
-  const double sine = std::sin(def.lean), cosine = std::cos(def.lean);
+  const auto [sine, cosine] = sineCosine(def.lean);
   // A pair spans 2 reachX at its feet and is `rise` high; its cards' centres are `offset` from its
   // middle.
   const double reachX = def.length * sine + def.thickness * cosine;

@@ -97,14 +97,15 @@ std::vector<BodyId> add(World& world, const BridgeDef& def) {
   const Vec3 across = along.cross(Vec3::UnitY());
   require(across.norm() > 1e-6, "expected a bridge that is not vertical");
   const Vec3 axis = across.normalized(), down = along.cross(axis);
-  const double halfAngle = 2 * std::atan2(2 * def.sag, length);
+  const double halfAngle = 2 * arcTangent(2 * def.sag, length);
   // The joint that lies `part` of the way along the arc.
   const auto jointAt = [&](int i) -> Vec3 {
     const double part = 2.0 * i / def.count - 1;
     if (def.sag < 1e-9 * length) return def.from + 0.5 * (1 + part) * span;
-    const double radius = 0.5 * length / std::sin(halfAngle), angle = part * halfAngle;
-    return 0.5 * (def.from + def.to) + radius * std::sin(angle) * along +
-           (def.sag - radius * (1 - std::cos(angle))) * down;
+    const double radius = 0.5 * length / sineCosine(halfAngle).sine;
+    const auto [sine, cosine] = sineCosine(part * halfAngle);
+    return 0.5 * (def.from + def.to) + radius * sine * along +
+           (def.sag - radius * (1 - cosine)) * down;
   };
   std::vector<BodyId> ids;
   const auto hingeAt = [&](int i, BodyId a, BodyId b) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/rotation.h"
+
 namespace physics {
 namespace {
 
@@ -71,7 +73,7 @@ Vec3 Random::inBall(double radius) {
 Quat Random::rotation(double largestAngle) {
   Vec3 axis = inBall(1);
   while (axis.norm() < 1e-3) axis = inBall(1);
-  return Quat(Eigen::AngleAxisd(uniform(0, largestAngle), axis.normalized()));
+  return exponential(uniform(0, largestAngle) * axis.normalized());
 }
 
 }  // namespace physics

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/base/rotation.h"
+
 namespace physics {
 namespace {
 
@@ -35,7 +37,7 @@ double halfAngle(double endsOverLink, int links) {
   double low = 0, high = std::numbers::pi;
   for (int i = 0; i < 60; ++i) {
     const double a = 0.5 * (low + high);
-    (std::sin(a) > endsOverLink * std::sin(a / links) ? low : high) = a;
+    (sineCosine(a).sine > endsOverLink * sineCosine(a / links).sine ? low : high) = a;
   }
   return 0.5 * (low + high);
 }
@@ -52,12 +54,12 @@ std::vector<Vec3> placesOf(const RopeDef& def) {
   const Vec3 down = -Vec3::UnitY() + span.along.y() * span.along;
   const Vec3 sag = down.norm() > 1e-6 ? down.normalized() : Vec3::UnitX();
   const double a = halfAngle(span.ends / link, links);
-  const double radius = 0.5 * link / std::sin(a / links);
+  const double radius = 0.5 * link / sineCosine(a / links).sine;
   const Vec3 middle = def.from + 0.5 * span.ends * span.along;
   for (int i = 0; i <= links; ++i) {
-    const double angle = a * (2.0 * i / links - 1);
-    places.push_back(middle + radius * std::sin(angle) * span.along +
-                     radius * (std::cos(angle) - std::cos(a)) * sag);
+    const auto [sine, cosine] = sineCosine(a * (2.0 * i / links - 1));
+    places.push_back(middle + radius * sine * span.along +
+                     radius * (cosine - sineCosine(a).cosine) * sag);
   }
   return places;
 }

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "physics/base/rotation.h"
+
 namespace physics {
 namespace {
 
@@ -18,12 +20,12 @@ BodyId addFixed(World& world, const Shape& shape, const Pose& pose,
 
 // A prism with the bowl's outline, its upper face at the foot of the walls.
 BodyId addFloor(World& world, const BowlDef& def) {
-  const double corner = def.radius / std::cos(M_PI / def.sides);
+  const double corner = def.radius / sineCosine(kPi / def.sides).cosine;
   std::vector<Vec3> points;
   for (int i = 0; i < def.sides; ++i) {
-    const double angle = (2 * i + 1) * M_PI / def.sides;
+    const auto [sine, cosine] = sineCosine((2 * i + 1) * kPi / def.sides);
     for (const double y : {0.0, def.thickness}) {
-      points.emplace_back(corner * std::cos(angle), y, corner * std::sin(angle));
+      points.emplace_back(corner * cosine, y, corner * sine);
     }
   }
   const PrincipalHull hull = makeHull(points);
@@ -33,15 +35,16 @@ BodyId addFloor(World& world, const BowlDef& def) {
 }  // namespace
 
 std::vector<BodyId> add(World& world, const BowlDef& def) {
-  const double sine = std::sin(def.slope), cosine = std::cos(def.slope);
+  const auto [sine, cosine] = sineCosine(def.slope);
+  const auto [sideSine, sideCosine] = sineCosine(kPi / def.sides);
   const double along = def.height / sine;                      // m, up a wall
   const double rim = def.radius + def.height * cosine / sine;  // m, from the middle to a wall's top
-  const double side = 2 * rim * std::tan(M_PI / def.sides);    // m, a wall's width at its top
+  const double side = 2 * rim * sideSine / sideCosine;         // m, a wall's width at its top
   std::vector<BodyId> ids{addFloor(world, def)};
   for (int i = 0; i < def.sides; ++i) {
     // Local axes of a wall at angle 0: y up along it, x its outer normal, z across.
-    const Quat turn(Eigen::AngleAxisd(2 * M_PI * i / def.sides, Vec3::UnitY()));
-    const Quat slope(Eigen::AngleAxisd(def.slope - M_PI / 2, Vec3::UnitZ()));
+    const Quat turn = exponential(2 * kPi * i / def.sides * Vec3::UnitY());
+    const Quat slope = exponential((def.slope - kPi / 2) * Vec3::UnitZ());
     const Vec3 middle(def.radius + 0.5 * along * cosine + 0.5 * def.thickness * sine,
                       def.thickness + 0.5 * along * sine - 0.5 * def.thickness * cosine, 0);
     const Box wall{Vec3(def.thickness, along, side)};

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "physics/base/rotation.h"
+
 namespace physics {
 
 using namespace swept;
@@ -165,7 +167,7 @@ double Deformable::turn(const Configuration& at) const {
   double most = 0;
   for (const auto& [a, b] : pieces_) {
     const Vec3 now = at.now[b].x - at.now[a].x, start = at.start[b].x - at.start[a].x;
-    most = std::max(most, std::atan2(start.cross(now).norm(), start.dot(now)));
+    most = std::max(most, arcTangent(start.cross(now).norm(), start.dot(now)));
   }
   return most;
 }
