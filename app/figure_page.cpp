@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "app/figure_record.h"
 #include "app/html.h"
@@ -78,6 +79,15 @@ std::string filesOf(const FigureRecord& record) {
   return links;
 }
 
+// How its runs were stepped: one way, or several.
+std::string methodsOf(const FigureRecord& record) {
+  std::set<std::string> methods;
+  for (const Json& scene : record.inputs.value("scenes", Json::array())) {
+    methods.insert(scene.value("method", ""));
+  }
+  return fmt::format("{}", fmt::join(methods, "; "));
+}
+
 std::string showFigure(const FigureRecord& record) {
   const std::string picture = escapeHtml(record.name) + ".png";
   std::string html = fmt::format("<section id=\"{}\"><h2>{} · {}</h2>\n", escapeHtml(record.name),
@@ -95,9 +105,9 @@ std::string showFigure(const FigureRecord& record) {
   if (!record.problem.empty()) html += fmt::format("<p>{}</p>\n", escapeHtml(record.problem));
   html += "<p></p>\n" + measuresOf(record);
   html += fmt::format(
-      "<p class=\"quiet\">Took: {}. Files: {}<br><code>dbd figures {} --fresh</code>"
+      "<p class=\"quiet\">Method: {}. Took: {}. Files: {}<br><code>dbd figures {} --fresh</code>"
       "</p>\n",
-      timesOf(record), filesOf(record), escapeHtml(record.asked));
+      escapeHtml(methodsOf(record)), timesOf(record), filesOf(record), escapeHtml(record.asked));
   return html + "</section>\n";
 }
 

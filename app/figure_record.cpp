@@ -5,6 +5,7 @@
 
 #include "app/build_info.h"
 #include "app/output_file.h"
+#include "scenes/settings_reader.h"
 
 namespace app {
 
@@ -15,6 +16,16 @@ bool FigureRecord::holds() const {
   return std::all_of(measures.begin(), measures.end(),
                      [](const Json& measure) { return measure.value("holds", false); });
 }
+
+namespace {
+
+std::string methodText(const physics::Settings& settings) {
+  if (settings.method == physics::Method::kSmallSteps) return "the default, small steps";
+  return std::string(scenes::wordOf(settings.method)) + ", stepping " +
+         scenes::wordOf(settings.stepping);
+}
+
+}  // namespace
 
 FigureRecord makeFigureRecord(const scenes::FigureSheet& sheet, const std::string& asked,
                               render::Quality quality, int width) {
@@ -28,7 +39,8 @@ FigureRecord makeFigureRecord(const scenes::FigureSheet& sheet, const std::strin
   for (const scenes::FigureRun& run : sheet.runs) {
     scenes.push_back({{"name", run.scene.name},
                       {"text_hash", hashText(run.scene.text)},
-                      {"overrides", run.scene.overrides}});
+                      {"overrides", run.scene.overrides},
+                      {"method", methodText(run.scene.settings)}});
   }
   record.inputs = {{"program", programHash()},
                    {"sheet_hash", hashText(sheet.text)},
