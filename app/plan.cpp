@@ -144,6 +144,7 @@ Json planJson(const Plan& plan) {
             {"problem", step.problem}}},
           {"work", plan.work},
           {"effects", effects},
+          {"islands", islandsJson(plan)},
           {"rest", {{"share", plan.rest}}}};
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/run_record.h"
 #include "app/step_clock.h"
+#include "physics/small_steps/island_plan.h"
 #include "scenes/effects.h"
 
 namespace app {
@@ -16,6 +17,12 @@ struct PlannedEffect {
   std::size_t bytes = 0;
   std::optional<double> share;  // of a step's time; none: of pictures, or part of `within`
   std::string within;           // the effect whose share holds this one's
+};
+
+// Islands that the default method does the same with.
+struct PlannedIslands {
+  int count = 0;
+  physics::IslandPlan plan;  // of the first of them
 };
 
 struct Plan {
@@ -30,12 +37,14 @@ struct Plan {
   std::size_t bytes = 0;                  // held by the world
   StepMeasure step;
   std::vector<PlannedEffect> effects;
-  double rest = 0;  // share of the step that is no effect's
+  std::vector<PlannedIslands> islands;  // of the last step; those of most bodies first
+  double rest = 0;                      // share of the step that is no effect's
 };
 
 Plan makePlan(const scenes::Scene& scene, const StepEffort& effort);
 
-std::string planText(const Plan& plan);  // at most 100 columns
+std::string islandsText(const Plan& plan);  // part of:
+std::string planText(const Plan& plan);     // at most 100 columns
 // Version 1:
 //   version, scene {name, title, path, overrides}, settings (as run.json),
 //   bodies {all, moving, points, turning}
@@ -45,7 +54,12 @@ std::string planText(const Plan& plan);  // at most 100 columns
 //         rest_speeds, made_anew}: per step, physics/model/report.h
 //   effects [{name, part, on, left_out, why, count, unit, rows, bytes, share, within, without,
 //             stays}] in a fixed order; share is null where it is not measured by itself
+//   islands [{count, first, bodies, flies, trees, loops, joints, ropes, meshes, links, contacts,
+//             soft_contacts, substeps, sweeps, asked_by, halves}]:
+//             physics/small_steps/island_plan.h;
+//   empty: of other methods
 //   rest {share}: what is no effect's; all shares sum to 1
+Json islandsJson(const Plan& plan);  // part of:
 Json planJson(const Plan& plan);
 
 }  // namespace app

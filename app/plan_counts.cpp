@@ -2,6 +2,8 @@
 #include "app/plan_counts.h"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 namespace app {
 
@@ -44,17 +46,48 @@ std::string effectOf(const std::string& held) {
   return held == "stepping" ? "second_order" : held;
 }
 
+// All but which bodies.
+auto sameOf(const physics::IslandPlan& p) {
+  return std::tuple(p.bodies, p.flies, p.trees, p.loops, p.joints, p.ropes, p.meshes, p.links,
+                    p.contacts, p.softContacts, p.substeps, p.sweeps, p.law, p.halves);
+}
+
+using Islands = std::map<physics::BodyId, physics::IslandPlan>;
+
+std::vector<PlannedIslands> grouped(const Islands& islands) {
+  std::vector<PlannedIslands> groups;
+  for (const auto& [first, plan] : islands) {
+    const auto found = std::find_if(groups.begin(), groups.end(), [&](const PlannedIslands& group) {
+      return sameOf(group.plan) == sameOf(plan);
+    });
+    if (found == groups.end()) {
+      groups.push_back({1, plan});
+    } else {
+      ++found->count;
+    }
+  }
+  std::stable_sort(groups.begin(), groups.end(), [](const auto& a, const auto& b) {
+    return a.count * a.plan.bodies > b.count * b.plan.bodies;
+  });
+  return groups;
+}
+
 }  // namespace
 
 void countWork(const scenes::Scene& scene, Plan& plan) {
   scenes::Simulation simulation(scene);
+  Islands islands;
+  const physics::IslandListening listening(
+      [&](const physics::IslandPlan& plan) { islands[plan.first] = plan; });
   simulation.advance();
   physics::StepWork sum;
   std::int64_t kept = 0;
   for (int k = 0; k < plan.step.steps; ++k) {
+    islands.clear();
     add(simulation.advance().work, sum);
     kept += pairsIn(simulation.world().contacts());
   }
+  plan.islands = grouped(islands);
   const double steps = std::max(1, plan.step.steps);
   plan.pairsTested = static_cast<double>(sum.narrowPhase) / steps;
   plan.pairsKept = static_cast<double>(kept) / steps;

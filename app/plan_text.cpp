@@ -95,7 +95,7 @@ std::string planText(const Plan& plan) {
   }
   on += cut(fmt::format("{:<20}{:>22} {:>8} {:>9.1f} %  velocities, checks, bookkeeping",
                         "the rest", "", "", 100 * plan.rest));
-  return headText(plan) + "\n" + on + "\n" + offText(plan);
+  return headText(plan) + islandsText(plan) + "\n" + on + "\n" + offText(plan);
 }
 
 }  // namespace app

@@ -77,6 +77,12 @@ void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch) {
   }
 }
 
+void SmallSteps::Impl::want(BodyId body, int count, SubstepLaw by) {
+  if (count <= asked[body]) return;
+  asked[body] = count;
+  law[body] = by;
+}
+
 // The same of the overlaps of points and links, relative to their thickness.
 void SmallSteps::Impl::askSoft(const Model& w, const Batch& batch) {
   const Bodies& b = w.bodies;
@@ -89,8 +95,8 @@ void SmallSteps::Impl::askSoft(const Model& w, const Batch& batch) {
   }
   for (const BodyId i : batch.bodies) {
     if (islands[i] != i || !(load[i] > 0)) continue;
-    asked[i] =
-        std::max(asked[i], substepsFor(batch.substeps, change[i] / load[i] / kLargestStrain));
+    const double off = change[i] / load[i] / kLargestStrain;
+    want(i, substepsFor(batch.substeps, off), SubstepLaw::kOverlap);
   }
 }
 
@@ -100,10 +106,10 @@ void SmallSteps::Impl::askDeformables(Model& w, const Batch& batch, double h) {
   for (const int k : batch.deformables) {
     const double off = deformables[k].strain(w.kinds, {w.bodies.pose, w.bodies.start, h});
     const BodyId first = deformables[k].bodies().front();
-    asked[first] = substepsFor(batch.substeps, off / kLargestStrain);
+    want(first, substepsFor(batch.substeps, off / kLargestStrain), SubstepLaw::kStrain);
     if (!deformables[k].isDirect()) continue;
     const double turn = deformables[k].turn({w.bodies.pose, w.bodies.start, h});
-    asked[first] = std::max(asked[first], substepsForTurn(batch.substeps * turn));
+    want(first, substepsForTurn(batch.substeps * turn), SubstepLaw::kTurn);
   }
 }
 
@@ -141,7 +147,7 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {
-      asked[i] = std::max(asked[i], substepsFor(batch.substeps, sag[root] / load[root]));
+      want(i, substepsFor(batch.substeps, sag[root] / load[root]), SubstepLaw::kSag);
     }
     const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;

@@ -46,6 +46,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   sweeps.resize(bodies, 1);
   asked.resize(bodies, 0);
   askedSweeps.resize(bodies, 1);
+  law.resize(bodies);
   batchOf.resize(bodies);
   slotOf.resize(bodies);
   halved.resize(bodies);
@@ -71,6 +72,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
 void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
   const double dt = w.settings.dt / parts;
   divide(w);
+  tell(w, parts);
   fly(w, dt);
   report.work.moves += static_cast<std::int64_t>(free.size());
   for (std::size_t k = 0; k < batchCount; ++k) {

@@ -11,12 +11,15 @@
 //   look.cpp          the contacts of a step, and which islands look for them twice
 //   ask.cpp           how many substeps and sweeps the next step takes
 //   small_steps.cpp   the step
+//   island_plan.cpp   what it does with each island, to whoever listens
 #pragma once
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 
 #include "physics/model/model.h"
+#include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps.h"
 #include "physics/solver/articulation.h"
 #include "physics/solver/contact_block.h"
@@ -94,6 +97,7 @@ struct SmallSteps::Impl {
   bool known = false;                             // these are those of the world's constraints
   std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
   std::vector<int> asked, askedSweeps;
+  std::vector<SubstepLaw> law;  // by body: what it asks for `asked` by
   std::vector<Batch> batches;
   std::size_t batchCount = 0;
   Islands islands;
@@ -176,11 +180,14 @@ struct SmallSteps::Impl {
   void weighContacts(const Model& w, const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
   void askDeformables(Model& w, const Batch& batch, double h);
+  void want(BodyId body, int count, SubstepLaw by);
   void ask(Model& w, const Batch& batch, double h);
   void fly(Model& w, double dt);
   void advancePart(Model& w, int parts, StepReport& report);
   void advance(Model& w, StepReport& report);
   void learnLoads(Model& w);
+  void tell(const Model& w, int parts) const;
+  void countParts(const Batch& batch, std::map<BodyId, IslandPlan>& plans) const;
   const std::function<void()>* wake = nullptr;  // of the present step
   bool fresh = true;  // nothing has stepped yet, or the state came from elsewhere
   void fill(const Model& w, double h, ContactBlock& block) const;

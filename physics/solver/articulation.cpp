@@ -2,6 +2,7 @@
 #include "physics/solver/articulation.h"
 
 #include <algorithm>
+#include <set>
 
 namespace physics {
 
@@ -23,6 +24,21 @@ Articulation::Articulation(std::span<const JointRef> refs, const Kinds& kinds,
     kinds_.push_back(rows[i]);
   }
   pulls_.resize(refs.size());
+}
+
+// They hang together: a tree has a pair of bodies less than it has bodies.
+bool Articulation::hasLoop() const {
+  const auto nodeOf = [&](BodyId body) {
+    return std::binary_search(bodies_.begin(), bodies_.end(), body) ? body : kWorldBody;
+  };
+  std::set<std::pair<BodyId, BodyId>> pairs;
+  for (const JointKind& kind : kinds_) {
+    if (kind.bodyCount < 2) continue;
+    const BodyId a = nodeOf(kind.bodies[0]), b = nodeOf(kind.bodies[1]);
+    if (a != b) pairs.insert(std::minmax(a, b));
+  }
+  const bool isHeld = bodies_.size() < all_.size();
+  return pairs.size() >= bodies_.size() + (isHeld ? 1 : 0);
 }
 
 void Articulation::forget() { std::fill(pulls_.begin(), pulls_.end(), Pull{}); }

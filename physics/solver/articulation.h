@@ -58,7 +58,8 @@ class Articulation {
   bool holdsBothWays() const { return holdsBothWays_; }  // nothing but gaps and axles, at work
   JointResponse& response() { return response_; }        // of bodies that contacts touch
   const JointResponse& response() const { return response_; }
-  void forget();  // what it pulled with in the last substep
+  bool hasLoop() const;  // of bodies, all that do not move being one
+  void forget();         // what it pulled with in the last substep
 
  private:
   template <int W>

@@ -116,6 +116,28 @@ TEST(Plan, CountsAreThoseOfTheScene) {
   EXPECT_EQ(plan.step.repeats, 1);
 }
 
+TEST(Plan, NamesIslandsAndWhatTheirSubstepsAreAskedForBy) {
+  const app::Plan chain = planOf("chain");
+  ASSERT_EQ(chain.islands.size(), 1u);
+  EXPECT_EQ(chain.islands[0].count, 1);
+  EXPECT_EQ(chain.islands[0].plan.bodies, chain.moving);
+  EXPECT_EQ(chain.islands[0].plan.trees, 1);
+  EXPECT_EQ(chain.islands[0].plan.joints, named(chain, "ball_socket").effect.count);
+  const app::Plan tower = planOf("tower50");
+  ASSERT_EQ(tower.islands.size(), 1u);
+  EXPECT_EQ(tower.islands[0].plan.contacts, 50);
+  EXPECT_EQ(tower.islands[0].plan.law, physics::SubstepLaw::kSag);
+  EXPECT_GT(tower.islands[0].plan.substeps, planOf("stack").islands.at(0).plan.substeps);
+  const app::Plan dolls = planOf("ragdoll_pile");  // they fall, and hardly one has met another
+  EXPECT_GT(dolls.islands.at(0).count, 25);
+  EXPECT_EQ(dolls.islands.at(0).plan.trees, 1);
+  EXPECT_EQ(planOf("cloth_hang").islands.at(0).plan.meshes, 1);
+  EXPECT_EQ(planOf("rope_swing").islands.at(0).plan.ropes, 1);
+  EXPECT_EQ(planOf("bridge").islands.at(0).plan.loops, 1);
+  EXPECT_TRUE(planOf("spinning_tops").islands.at(0).plan.flies);
+  EXPECT_TRUE(planOf("chain", {"simulation.method=direct"}).islands.empty());
+}
+
 class PlanOf : public testing::TestWithParam<std::string> {};
 
 // No step is measured: that is done above, and would take long for all of them.
@@ -162,6 +184,14 @@ TEST_F(PlanCommand, JsonHasTheDocumentedKeys) {
   for (const char* key : {"broad_phase", "narrow_phase", "contact_visits", "friction_rows", "turns",
                           "gyroscopic", "moves", "rest_speeds", "made_anew"}) {
     EXPECT_TRUE(plan.at("work").at(key).is_number()) << key;
+  }
+  ASSERT_FALSE(plan.at("islands").empty());
+  for (const json& islands : plan.at("islands")) {
+    for (const char* key :
+         {"count", "first", "bodies", "flies", "trees", "loops", "joints", "ropes", "meshes",
+          "links", "contacts", "soft_contacts", "substeps", "sweeps", "asked_by", "halves"}) {
+      EXPECT_TRUE(islands.contains(key)) << key;
+    }
   }
   EXPECT_TRUE(plan.at("rest").at("share").is_number());
   EXPECT_TRUE(plan.contains("settings"));

@@ -1,0 +1,62 @@
+// What the default method does with each island, told to whoever listens.
+#include "physics/small_steps/island_plan.h"
+
+#include <map>
+#include <utility>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+namespace {
+
+thread_local const IslandListening::Listener* listening = nullptr;
+
+}  // namespace
+
+IslandListening::IslandListening(Listener listener)
+    : listener_(std::move(listener)), before_(std::exchange(listening, &listener_)) {}
+IslandListening::~IslandListening() { listening = before_; }
+const IslandListening::Listener* IslandListening::present() { return listening; }
+
+void SmallSteps::Impl::countParts(const Batch& batch, std::map<BodyId, IslandPlan>& plans) const {
+  for (const int k : batch.articulations) {
+    IslandPlan& plan = plans[islands[articulations[k].bodies().front()]];
+    ++(articulations[k].hasLoop() ? plan.loops : plan.trees);
+    plan.joints += static_cast<int>(articulations[k].size());
+  }
+  for (const int k : batch.deformables) {
+    IslandPlan& plan = plans[islands[deformables[k].bodies().front()]];
+    ++(deformables[k].isDirect() ? plan.ropes : plan.meshes);
+    plan.links += static_cast<int>(deformables[k].size());
+  }
+}
+
+// After divide: those that step now, `parts` of them to a step.
+void SmallSteps::Impl::tell(const Model& w, int parts) const {
+  const IslandListening::Listener* listener = IslandListening::present();
+  if (listener == nullptr) return;
+  std::map<BodyId, IslandPlan> plans;
+  for (const BodyId i : stepping) {
+    IslandPlan& plan = plans[islands[i]];
+    if (plan.bodies++ == 0) plan.first = i;
+    plan.flies = batchOf[i] < 0;
+    if (plan.flies) continue;
+    plan.halves = parts > 1;
+    plan.substeps = substeps[islands[i]];
+    plan.sweeps = sweeps[islands[i]];
+    if (asked[i] == plan.substeps && asked[i] > w.settings.substeps) plan.law = law[i];
+  }
+  for (std::size_t k = 0; k < batchCount; ++k) {
+    countParts(batches[k], plans);
+    for (const int c : batches[k].contacts) {
+      const KeptContact& contact = contacts[c];
+      ++plans[islands[isMovable(w.bodies, contact.a) ? contact.a : contact.b]].contacts;
+    }
+    for (const SoftPair& pair : batches[k].softPairs) {
+      ++plans[islands[softMoverOf(w, pair)]].softContacts;
+    }
+  }
+  for (const auto& [root, plan] : plans) (*listener)(plan);
+}
+
+}  // namespace physics
