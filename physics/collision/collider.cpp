@@ -143,7 +143,7 @@ struct Collider::Impl {
 
   // Watches lie in their order, but bodies in theirs: without this a look waits for memory most of
   // the time.
-  void fetchAhead(std::size_t k) {
+  void fetchAhead(std::size_t k, std::size_t end) {
     constexpr std::size_t kAhead = 8, kLine = 64;
     const std::vector<Watch>& watches = pairs.watches();
     const auto fetch = [](const void* from, std::size_t bytes) {
@@ -151,7 +151,7 @@ struct Collider::Impl {
         __builtin_prefetch(static_cast<const char*>(from) + i);
       }
     };
-    if (k + kAhead >= watches.size()) return;
+    if (k + kAhead >= end) return;  // others look at those that follow
     const Watch& watch = watches[k + kAhead];
     constexpr std::size_t kHot = 4 * kLine;  // of an item
     fetch(&pairs.items()[watch.a], kHot);
@@ -161,7 +161,7 @@ struct Collider::Impl {
 
   void lookAt(std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) {
-      fetchAhead(k);
+      fetchAhead(k, to);
       look(pairs.watches()[k]);
     }
   }
