@@ -61,7 +61,8 @@ void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch) {
       const KeptContact& c = contacts[block.contact[l]];
       const BodyId root = islands[isMovable(b, c.a) ? c.a : c.b];
       change[root] += block.change[l];
-      const double soft = (1 - block.scale[l]) / (block.scale[l] * block.rate[l]);
+      const Softness law = softnessOf(b, c);
+      const double soft = (1 - law.scale) / (law.scale * law.rate);
       const bool jointed = articulationOf[c.a] >= 0 || articulationOf[c.b] >= 0;
       const double size = std::min(radius[c.a], radius[c.b]);
       if (!(size > 0) || jointed) continue;
@@ -152,7 +153,8 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
     const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;
     if (relative > kRest) askedSweeps[i] = std::min(most, batch.sweeps + 1);
-    if (relative < 0.1 * kRest) askedSweeps[i] = std::max(1, batch.sweeps - 1);
+    if (learning) askedSweeps[i] = most;  // they go down where the motion allows it
+    if (!learning && relative < 0.1 * kRest) askedSweeps[i] = std::max(1, batch.sweeps - 1);
   }
 }
 

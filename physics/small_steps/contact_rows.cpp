@@ -6,20 +6,6 @@
 namespace physics {
 namespace {
 
-// A contact is a spring of this many periods in a substep: above a quarter the energy of stacks
-// rises, below it substeps are wasted; and its damping ratio. Against what cannot move it is twice
-// as stiff.
-constexpr double kPeriods = 0.25, kDamping = 2;
-// Of the load at the start, carried without sag. With all of it contacts open and shut, and stacks
-// creep; with half of it pyramids take more sweeps.
-constexpr double kHeld = 0.25;
-
-Softness softness(double periods, double zeta) {
-  const double omega = 2 * kPi * periods;  // omega h
-  const double d = 1 + omega * (2 * zeta + omega);
-  return {static_cast<float>(1 - 1 / d), static_cast<float>(omega / (2 * zeta + omega))};
-}
-
 constexpr int kColours = 64, kColourLists = 4 * kColours;
 
 // The last colour of each kind is the overflow: a block each.
@@ -38,6 +24,21 @@ void addRun(int end, bool independent, bool responds, std::vector<BlockRun>& run
 }
 
 }  // namespace
+
+// A contact is a spring of this many periods in a substep: above a quarter the energy of stacks
+// rises, below it substeps are wasted; and its damping ratio. Against what cannot move it is twice
+// as stiff.
+Softness softnessOf(const Bodies& b, const KeptContact& c) {
+  constexpr double kPeriods = 0.25, kDamping = 2;
+  const auto softness = [](double periods, double zeta) {
+    const double omega = 2 * kPi * periods;  // omega h
+    const double d = 1 + omega * (2 * zeta + omega);
+    return Softness{static_cast<float>(1 - 1 / d), static_cast<float>(omega / (2 * zeta + omega))};
+  };
+  static const Softness between = softness(kPeriods, kDamping);
+  static const Softness against = softness(2 * kPeriods, kDamping / 2);
+  return b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0 ? between : against;
+}
 
 // What one contact moves: a body, or all of an articulation that responds.
 BodyId SmallSteps::Impl::leaderOf(BodyId i) const {
@@ -119,6 +120,11 @@ void put(float (&to)[3][8], int l, const Vec3& v) {
   for (int k = 0; k < 3; ++k) to[k][l] = static_cast<float>(v[k]);
 }
 
+// Of kept multipliers, to those of substeps of h.
+double substepRatio(const KeptContact& c, double h) {
+  return c.step > 0 ? (h / c.step) * (h / c.step) : 0;
+}
+
 void emptyPoint(ContactBlock& block, int k, int l) {
   ContactBlock::Point& p = block.point[k];
   put(p.wA, l, Vec3::Zero());
@@ -127,26 +133,16 @@ void emptyPoint(ContactBlock& block, int k, int l) {
   block.held[k][l] = p.lambda[l] = p.inverse[l] = 0;
 }
 
-// The part of what a contact carried at the start that it carries without giving way: no more than
-// of what it carries now.
-double heldPart(const KeptContact& c) {
-  double held = 0, carried = 0;
-  for (int k = 0; k < c.count; ++k) {
-    held += c.held[k];
-    carried += c.lambda[k];
-  }
-  return held > 0 ? kHeld * std::min(1.0, carried / (c.step * c.step * held)) : 0;
-}
-
-// What lane l carried, of c: kept multipliers are scaled, and those of the start by `held`.
-void fillLoads(const KeptContact& c, double scale, double held, ContactBlock& block, int l) {
+// What lane l carried, of c: kept multipliers are scaled to substeps of h.
+void fillLoads(const KeptContact& c, double h, ContactBlock& block, int l) {
+  const double scale = substepRatio(c, h);
   block.twist[l] = static_cast<float>(scale * c.twist);
   block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
   block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
   block.change[l] = static_cast<float>(scale * c.tangential.z());
   for (int k = 0; k < c.count; ++k) {
     block.point[k].lambda[l] = static_cast<float>(scale * c.lambda[k]);
-    block.held[k][l] = static_cast<float>(held * c.held[k]);
+    block.held[k][l] = static_cast<float>(h * h * c.held[k]);
   }
 }
 
@@ -184,25 +180,21 @@ void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& b
 // Rows of a block at the present poses, for substeps of h.
 void SmallSteps::Impl::fill(const Model& w, double h, ContactBlock& block) const {
   const Bodies& b = w.bodies;
-  static const Softness between = softness(kPeriods, kDamping);
-  static const Softness against = softness(2 * kPeriods, kDamping / 2);
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (block.contact[l] < 0) {
       emptyLane(block, l);
       continue;
     }
     const KeptContact& c = contacts[block.contact[l]];
-    const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
     block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
     block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
-    const bool bothMove = b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0;
-    const Softness& soft = bothMove ? between : against;
+    const Softness soft = learning ? Softness{} : softnessOf(b, c);
     block.scale[l] = soft.scale;
     block.rate[l] = soft.rate;
     block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
     block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
     placeLane(c, b.pose, block, l);
-    fillLoads(c, scale, h * h * heldPart(c), block, l);
+    fillLoads(c, h, block, l);
   }
 }
 
@@ -234,7 +226,7 @@ void SmallSteps::Impl::takeOver(const ContactBlock& block, double h) {
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (block.contact[l] < 0) continue;
     KeptContact& c = contacts[block.contact[l]];
-    const double scale = c.step > 0 ? (h / c.step) * (h / c.step) : 0;
+    const double scale = substepRatio(c, h);
     for (int k = 0; k < c.count; ++k) {
       // One that touched when it was first seen has carried its load before.
       const bool stood = c.step == 0 && block.gap[k][l] <= 0;
@@ -247,6 +239,7 @@ void SmallSteps::Impl::takeOver(const ContactBlock& block, double h) {
     }
     c.twist = block.twist[l];
     c.step = h;
+    if (std::all_of(c.lambda.begin(), c.lambda.end(), [](double x) { return x == 0; })) c.held = {};
   }
 }
 

@@ -25,6 +25,7 @@ void SmallSteps::forget() {
   impl_->known = false;
   impl_->fresh = true;
   std::fill(impl_->asked.begin(), impl_->asked.end(), 0);
+  std::fill(impl_->meanSpins.begin(), impl_->meanSpins.end(), Vec3::Zero());
   std::fill(impl_->askedSweeps.begin(), impl_->askedSweeps.end(), 1);
 }
 
@@ -60,6 +61,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   radius.resize(bodies);
   inertias.resize(bodies);
   spins.resize(bodies);
+  meanSpins.resize(bodies, Vec3::Zero());
   load.resize(bodies);
   sag.resize(bodies);
   energy.resize(bodies);
@@ -119,27 +121,6 @@ void SmallSteps::Impl::advance(Model& w, StepReport& report) {
     if (!choose(w, parts)) continue;
     advancePart(w, parts, report);
     if (report.notFinite) return;
-  }
-}
-
-// Where nothing is known of what contacts carry, steps are trials for the one that counts, as many
-// as the load needs to find its way down. Always as many: no island is to know of another.
-void SmallSteps::Impl::learnLoads(Model& w) {
-  constexpr int kTrials = 16;
-  const Bodies& b = w.bodies;
-  fresh = false;
-  const std::vector<Pose> pose = b.pose;
-  const std::vector<Velocity> velocity = b.velocity;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    StepReport unused;
-    advance(w, unused);
-    w.bodies.pose = pose;
-    w.bodies.velocity = velocity;
-    for (Articulation& articulation : articulations) articulation.forget();
-    if (contacts.empty() || unused.notFinite) return;
-  }
-  for (KeptContact& c : contacts) {
-    for (int k = 0; k < c.count; ++k) c.held[k] = c.lambda[k] / (c.step * c.step);
   }
 }
 

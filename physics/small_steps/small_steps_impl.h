@@ -10,6 +10,7 @@
 //   bounce.cpp        restitution
 //   look.cpp          the contacts of a step, and which islands look for them twice
 //   ask.cpp           how many substeps and sweeps the next step takes
+//   learn.cpp         what contacts carry at the start
 //   small_steps.cpp   the step
 //   island_plan.cpp   what it does with each island, to whoever listens
 #pragma once
@@ -87,6 +88,7 @@ inline void startRows(LaneMotion& motion) {
 // Lane l of a block: nothing; or the surfaces of a contact at these poses, without its loads.
 void emptyLane(ContactBlock& block, int l);
 void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& block, int l);
+Softness softnessOf(const Bodies& b, const KeptContact& c);
 
 struct SmallSteps::Impl {
   std::vector<KeptContact> contacts, before;
@@ -111,9 +113,10 @@ struct SmallSteps::Impl {
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;
   std::vector<Mat3> stiffness;
-  std::vector<Mat3> inertias;  // world, at X^t, and the turn without joints and contacts: of those
-  std::vector<Vec3> spins;     // whose inertia turns with them
-  std::vector<double> radius;  // by body, of its shape
+  std::vector<Mat3> inertias;   // world, at X^t, and the turn without joints and contacts: of those
+  std::vector<Vec3> spins;      // whose inertia turns with them
+  std::vector<Vec3> meanSpins;  // by body: what turns arms back [rad/s]
+  std::vector<double> radius;   // by body, of its shape
   enum class Held : char { kNot, kJoined, kTouching };  // by joints or points; by contacts
   std::vector<Held> held;                               // of an island, by its first body
   std::vector<double> load, sag, energy, change;        // by body (island: by its first)
@@ -151,8 +154,10 @@ struct SmallSteps::Impl {
   void gatherSoft(Model& w);
   void lookAgain(Model& w, Batch& batch, double h);
   void predict(Model& w, Batch& batch, double h, bool first);
-  void predictBody(Model& w, BodyId i, double h, bool first);
-  void predictTurn(Model& w, BodyId i, double h, bool first);
+  bool isHalved(const Batch& batch, BodyId i) const;
+  void giveOtherHalf(const Model& w, const Batch& batch, double h);
+  void predictBody(Model& w, const Batch& batch, BodyId i, double h, bool first);
+  void predictTurn(Model& w, BodyId i, double h, double kick, bool first);
   void toLane(Batch& batch, int slot);
   void fromLane(Batch& batch, int slot);
   void takeGiven(Batch& batch, int slot);
@@ -160,6 +165,7 @@ struct SmallSteps::Impl {
   void fromLanes(Model& w, Batch& batch);
   void sweepContactPositions(Model& w, Batch& batch, double h);
   void sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which);
+  void balanceContacts(Model& w, Batch& batch);
   void displaceBody(Model& w, BodyId i, double h);
   void displaceAll(Model& w, Batch& batch, double h);
   template <class F>
@@ -188,8 +194,10 @@ struct SmallSteps::Impl {
   void learnLoads(Model& w);
   void tell(const Model& w, int parts) const;
   void countParts(const Batch& batch, std::map<BodyId, IslandPlan>& plans) const;
+  void learnLoads(Model& w, Batch& batch);
   const std::function<void()>* wake = nullptr;  // of the present step
-  bool fresh = true;  // nothing has stepped yet, or the state came from elsewhere
+  bool fresh = true;      // nothing has stepped yet, or the state came from elsewhere
+  bool learning = false;  // what contacts carry: they do not give way, nor push
   void fill(const Model& w, double h, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
   std::vector<SoftPair> softPairs;

@@ -88,6 +88,11 @@ struct JointStage {
   double h;
   std::span<const JointMass> masses;
   std::span<Displacement> moved;
+  // What bodies turn with on the average of the last substeps [rad/s]: gaps pull along arms that
+  // are turned back by h of it. Along those of the substep's end they take omega^2 h of a swing's
+  // energy in a second; turned back they take that only of what the steps do not resolve, where the
+  // spin is another in each. None: along those of the end.
+  std::span<const Vec3> spin = {};
 };
 
 // Up to W articulations of equal topology, side by side.
@@ -112,12 +117,12 @@ class JointPack {
     std::array<bool, W> active{};
   };
   JointView<W> view();
-  void place();
+  void place(bool back);
   void restorePoses(const JointStage& stage) const;
   void seeOthers(const JointStage& stage, bool all);
   void openAll();
   void solveOpenVelocities(const JointStage& stage);
-  void see(const JointStage& stage, bool all);
+  void see(const JointStage& stage, bool first);
   void noteSeen();
   void step();
   double offOf(int lane) const;

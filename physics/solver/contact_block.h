@@ -8,13 +8,13 @@
 //
 // A contact gives way as the spring and damper of (117)-(124), as stiff as the substep resolves:
 //   position   c > 0:  dlambda = -(J u + c) / A
-//              else    dlambda = -(s J u + r c) / A - (1 - s) (lambda - held)
+//              else    dlambda = -(s J u + r c) / A - (1 - s) lambda
 //                      r = min(s b, push / depth of the deepest)
 //   velocity           dlambda = -(J u + max(c, 0)) / A, and friction on the disc of (96)-(101)
 // with the total projected on lambda >= 0. What is deep is taken back by the same share at all
-// points of a manifold, so that it does not tilt on its way out. `held` is a part of the load at
-// the start: what is drawn at rest sags less. No include but this: it is compiled for several
-// machines.
+// points of a manifold, so that it does not tilt on its way out. c is counted from where the spring
+// carries `held`, the load at the start: what is drawn at rest stays where it is, and the law about
+// it is the same as anywhere. No include but this: it is compiled for several machines.
 #pragma once
 
 namespace physics {
@@ -63,7 +63,7 @@ struct alignas(32) ContactBlock {
   float inverse11[8], inverse12[8], inverse22[8];
   float staticFriction[8], dynamicFriction[8];
   float gap[kPoints][8];
-  float held[kPoints][8];   // of lambda, what the spring carries without giving way
+  float held[kPoints][8];   // what it carries where the bodies just touch
   float scale[8], rate[8];  // softness
   float change[8];          // sum of A dlambda^2 in the last velocity sweep
   int contact[8];           // index of the contact, -1: an empty lane
@@ -85,6 +85,8 @@ struct ContactKernels {
   void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, float push);
   void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions,
                           VelocitySweep which);
+  // The same where the bodies stand: of the loads that hold them there.
+  void (*balance)(ContactBlock* blocks, int count, LaneMotion* motions);
 };
 
 // Chosen once, by what the processor has.

@@ -111,7 +111,7 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float push
     for (int i = 0; i < kCount; ++i) {
       const Lanes inverse = load(m.point[i].inverse), scale = wherePositive(c[i], one, soft);
       const Lanes aim = wherePositive(c[i], c[i], share * c[i]);
-      const Lanes yields = (one - scale) * (lambda[i] - load(m.held[i]));
+      const Lanes yields = (one - scale) * lambda[i];
       const Lanes total = larger(lambda[i] - yields - inverse * (scale * v[i] + aim), zero);
       const Lanes delta = total - lambda[i];
       lambda[i] = total;
@@ -220,6 +220,61 @@ inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions, VelocityS
   scatter(m.bodyB, load(m.massB), b, motions);
 }
 
+// Velocities of a manifold, none of its points before the others, so that what is symmetric stays
+// so: first by one amount for all that touch, further than what stops them (a column is so many
+// times sooner right), then each by half of its own.
+template <int kCount>
+inline void balanceBlock(ContactBlock& m, LaneMotion* motions) {
+  constexpr float kFurther = 1.8f, kOwn = 0.5f;
+  Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
+  const Lanes3 n = load(m.n), between = a.u - b.u;
+  const Lanes zero = all(0), one = all(1), tiny = all(kTiny), along = dot(n, between);
+  Lanes v[kCount], lambda[kCount], touches[kCount], error = zero, sum = zero;
+  for (int i = 0; i < kCount; ++i) {
+    const ContactBlock::Point& p = m.point[i];
+    lambda[i] = load(p.lambda);
+    v[i] = rateOf(p, along, a, b) + larger(load(m.gap[i]), zero);
+    const Lanes carries = wherePositive(lambda[i], one, wherePositive(zero - v[i], one, zero));
+    touches[i] = wherePositive(load(p.inverse), carries, zero);
+    error = error + touches[i] * v[i];
+  }
+  const auto forEachCoupling = [&](auto&& f) {
+    for (int i = 0; i < kCount; ++i) {
+      f(i, i, one / larger(load(m.point[i].inverse), tiny));
+      for (int j = i + 1; j < kCount; ++j) {
+        const Lanes coupled = load(m.coupling[couplingOf(i, j)]);
+        f(i, j, coupled);
+        f(j, i, coupled);
+      }
+    }
+  };
+  forEachCoupling([&](int i, int j, Lanes coupled) {
+    sum = sum + wherePositive(touches[i] * touches[j], coupled, zero);
+  });
+  const Lanes common = wherePositive(sum, all(kFurther) * error / larger(sum, tiny), zero);
+  Lanes given[kCount];
+  for (int i = 0; i < kCount; ++i) {
+    given[i] = larger(lambda[i] - touches[i] * common, zero) - lambda[i];
+  }
+  forEachCoupling([&](int i, int j, Lanes coupled) {
+    v[j] = v[j] + wherePositive(load(m.point[i].inverse), coupled * given[i], zero);
+  });
+  Lanes normal = zero, turning = zero, pushed = zero;
+  for (int i = 0; i < kCount; ++i) {
+    ContactBlock::Point& p = m.point[i];
+    const Lanes total = larger(lambda[i] + given[i] - all(kOwn) * load(p.inverse) * v[i], zero);
+    store(p.lambda, total);
+    turn(p, total - lambda[i], a, b);
+    pushed = pushed + (total - lambda[i]);
+    normal = normal + total;
+    turning = turning + load(p.lever) * total;
+  }
+  const Lanes3 friction = sweepFriction(m, normal, turning, between, a, b);
+  push(m, n * pushed + friction, a, b);
+  scatter(m.bodyA, load(m.massA), a, motions);
+  scatter(m.bodyB, load(m.massB), b, motions);
+}
+
 // f(block, number of its points as a constant) of every block.
 template <class F>
 inline void forEachBlock(ContactBlock* blocks, int count, F&& f) {
@@ -259,8 +314,15 @@ void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions, Ve
   });
 }
 
+void balanceAll(ContactBlock* blocks, int count, LaneMotion* motions) {
+  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
+    balanceBlock<points.value>(block, motions);
+  });
+}
+
 }  // namespace
 
-const ContactKernels KERNELS = {prepareAll, warmStartAll, sweepPositionsAll, sweepVelocitiesAll};
+const ContactKernels KERNELS = {prepareAll, warmStartAll, sweepPositionsAll, sweepVelocitiesAll,
+                                balanceAll};
 
 }  // namespace physics

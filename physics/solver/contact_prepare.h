@@ -80,7 +80,7 @@ inline void prepareFriction(ContactBlock& m, const Lanes3& n, const Roots& a, co
 }
 
 inline void prepareBlock(ContactBlock& m, const LaneMass* masses, float reach) {
-  const Lanes zero = all(0), one = all(1), tiny = all(kTiny);
+  const Lanes zero = all(0), one = all(1), tiny = all(kTiny), soft = load(m.scale);
   const Roots a = gatherMass(m.bodyA, masses), b = gatherMass(m.bodyB, masses);
   store(m.massA, a.mass);
   store(m.massB, b.mass);
@@ -107,6 +107,9 @@ inline void prepareBlock(ContactBlock& m, const LaneMass* masses, float reach) {
     store(p.wB, turned(b, cross(armB, n)));
     const Lanes resistance = a.mass + b.mass + turnedBy(p, p);
     store(p.inverse, wherePositive(resistance * exists, one / larger(resistance, tiny), zero));
+    const Lanes stiffness = load(p.inverse) * soft * load(m.rate);
+    const Lanes sag = (one - soft) * load(m.held[i]) / larger(stiffness, tiny);
+    store(m.gap[i], load(m.gap[i]) - wherePositive(stiffness, sag, zero));
     for (int k = 0; k < i; ++k) {
       store(m.coupling[couplingOf(k, i)], a.mass + b.mass + turnedBy(m.point[k], p));
     }

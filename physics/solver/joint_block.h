@@ -25,6 +25,7 @@ struct JointBody {
   Num<W> seenU[3], seenTheta[3];  // and did where its rows were evaluated
   Num<W> inverseMass, inertia[6];
   Num<W> factorTheta[3], factorVolume;  // of the factor: theta, and the determinant of `inertia`
+  Num<W> back[3], backQ[4];             // the turn that arms are taken back by, and q then
 };
 
 // What factorizing leaves of a row: M^-1 J^T by bodies and rows, epsilon A, A_ii and the inverse of
@@ -117,8 +118,9 @@ struct JointView {
 template <int W>
 struct JointKernels {
   using System = JointView<W>;
-  void (*place)(const System&);    // x, q: the start moved by u
-  void (*seeGaps)(const System&);  // c and J of gaps at x, q
+  void (*place)(const System&);               // x, q: the start moved by u
+  void (*turnBack)(const System&);            // q to backQ
+  void (*seeGaps)(const System&, bool back);  // c of gaps at x, q, and J there or at x, backQ
   // c, J and bounds of cones and twists: of all, where only the sign of c counts, or of those used.
   void (*seeLimits)(const System&, bool all);
   void (*chooseLimits)(const System&);  // free where lambda = 0 is no solution

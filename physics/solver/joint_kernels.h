@@ -38,6 +38,16 @@ void exponential(const Triple<N>& theta, N (&e)[4]) {
   for (int k = 0; k < 4; ++k) e[k] = load(parts[k]);
 }
 
+// The turn e after that of q.
+template <class N>
+void turnFurther(const N (&e)[4], const Num<N::kWidth> (&q)[4], Num<N::kWidth> (&to)[4]) {
+  const N w = load(q[0]), x = load(q[1]), y = load(q[2]), z = load(q[3]);
+  store(to[0], e[0] * w - e[1] * x - e[2] * y - e[3] * z);
+  store(to[1], e[0] * x + e[1] * w + e[2] * z - e[3] * y);
+  store(to[2], e[0] * y + e[2] * w + e[3] * x - e[1] * z);
+  store(to[3], e[0] * z + e[3] * w + e[1] * y - e[2] * x);
+}
+
 template <class N>
 void place(const Of<N>& s) {
   for (int i = 0; i < s.bodyCount; ++i) {
@@ -45,17 +55,23 @@ void place(const Of<N>& s) {
     store3(body.x, load3<N>(body.startX) + load3<N>(body.u));
     N e[4];
     exponential(load3<N>(body.theta), e);
-    const N w = load(body.startQ[0]), x = load(body.startQ[1]), y = load(body.startQ[2]),
-            z = load(body.startQ[3]);
-    store(body.q[0], e[0] * w - e[1] * x - e[2] * y - e[3] * z);
-    store(body.q[1], e[0] * x + e[1] * w + e[2] * z - e[3] * y);
-    store(body.q[2], e[0] * y + e[2] * w + e[3] * x - e[1] * z);
-    store(body.q[3], e[0] * z + e[3] * w + e[1] * y - e[2] * x);
+    turnFurther(e, body.startQ, body.q);
   }
 }
 
 template <class N>
-void seeGaps(const Of<N>& s) {
+void turnBack(const Of<N>& s) {
+  const Triple<N> zero = {all<N>(0), all<N>(0), all<N>(0)};
+  for (int i = 0; i < s.bodyCount; ++i) {
+    JointBody<N::kWidth>& body = s.bodies[i];
+    N e[4];
+    exponential(zero - load3<N>(body.back), e);
+    turnFurther(e, body.q, body.backQ);
+  }
+}
+
+template <class N>
+void seeGaps(const Of<N>& s, bool back) {
   const Triple<N> zero = {all<N>(0), all<N>(0), all<N>(0)};
   for (int i = 0; i < s.rowCount; ++i) {
     if (!s.shapes[i].isGap) continue;
@@ -65,8 +81,8 @@ void seeGaps(const Of<N>& s) {
                     armB = turned<N>(b.q, load3<N>(row.fixed + 3));
     store3(row.arm[0], armA);
     store3(row.arm[1], armB);
-    store3(row.angular[0], zero - armA);  // (72)
-    store3(row.angular[1], armB);
+    store3(row.angular[0], zero - (back ? turned<N>(a.backQ, load3<N>(row.fixed)) : armA));  // (72)
+    store3(row.angular[1], back ? turned<N>(b.backQ, load3<N>(row.fixed + 3)) : armB);
     store3(row.c, (load3<N>(a.x) + armA) - (load3<N>(b.x) + armB));  // (71)
   }
 }
@@ -265,9 +281,9 @@ void apply(const Of<N>& s) {
 
 template <class N>
 constexpr JointKernels<N::kWidth> tableOf() {
-  return {place<N>,     seeGaps<N>,         seeLimits<N>,  chooseLimits<N>,
-          factorize<N>, findChanged<N>,     respondAll<N>, aimAtErrors<N>,
-          findOpen<N>,  aimAtVelocities<N>, substitute<N>, follow<N>, apply<N>};
+  return {place<N>,           turnBack<N>,    seeGaps<N>,    seeLimits<N>,   chooseLimits<N>,
+          factorize<N>,       findChanged<N>, respondAll<N>, aimAtErrors<N>, findOpen<N>,
+          aimAtVelocities<N>, substitute<N>,  follow<N>,     apply<N>};
 }
 
 }  // namespace

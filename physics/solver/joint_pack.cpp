@@ -106,7 +106,7 @@ void JointPack<W>::restorePoses(const JointStage& stage) const {
 
 // Trial poses of what joints move; the others stand where they are.
 template <int W>
-void JointPack<W>::place() {
+void JointPack<W>::place(bool back) {
   jointKernels<W>().place(view());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (topology_->moves[i]) continue;
@@ -114,7 +114,8 @@ void JointPack<W>::place() {
     std::copy(std::begin(body.startX), std::end(body.startX), std::begin(body.x));
     std::copy(std::begin(body.startQ), std::end(body.startQ), std::begin(body.q));
   }
-  jointKernels<W>().seeGaps(view());
+  if (back) jointKernels<W>().turnBack(view());
+  jointKernels<W>().seeGaps(view(), back);
   seenSince_ = true;
 }
 
@@ -177,7 +178,7 @@ bool JointPack<W>::givesWay(int i, int l) const {
 template <int W>
 void JointPack<W>::leave(const JointStage& stage, double most) {
   gatherPoses<W>(ids_, stage.pose, bodies_);
-  jointKernels<W>().seeGaps(view());
+  jointKernels<W>().seeGaps(view(), false);
   jointKernels<W>().seeLimits(view(), true);
   seeOthers(stage, true);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -338,13 +339,13 @@ void JointPack<W>::openAll() {
 }
 
 template <int W>
-void JointPack<W>::see(const JointStage& stage, bool all) {
+void JointPack<W>::see(const JointStage& stage, bool first) {
   const JointKernels<W>& kernels = jointKernels<W>();
-  place();
-  kernels.seeLimits(view(), all);
+  place(first && !stage.spin.empty());
+  kernels.seeLimits(view(), first);
   if (topology_->others.empty()) return;
   scatterPoses<W>(ids_, lanes_, topology_->moves, bodies_, stage.pose);
-  seeOthers(stage, all);
+  seeOthers(stage, first);
   restorePoses(stage);
 }
 
@@ -376,6 +377,9 @@ void JointPack<W>::solvePositions(const JointStage& stage, bool first) {
   if (first) {
     gatherMasses<W>(ids_, stage.masses, bodies_);
     gatherPoses<W>(ids_, stage.pose, bodies_);
+    for (std::size_t i = 0; i < ids_.size() && !stage.spin.empty(); ++i) {
+      write(bodies_[i / W].back, i % W, (stage.h * stage.spin[ids_[i]]).eval());
+    }
     for (JointBody<W>& body : bodies_) {
       std::copy(std::begin(body.x), std::end(body.x), std::begin(body.startX));
       std::copy(std::begin(body.q), std::end(body.q), std::begin(body.startQ));
@@ -458,6 +462,7 @@ void JointPack<W>::closePositions(const JointStage& stage, double tolerance) {
   for (int k = 0; k < kMostSteps; ++k) {
     see(stage, false);
     noteSeen();
+    if (k == 0 && !stage.spin.empty()) stale_.fill(true);  // the factor is of arms turned back
     kernels.aimAtErrors(view());
     Num<W> open = open_;
     const bool waits = k > 0 && goBack();
@@ -492,7 +497,7 @@ void JointPack<W>::prepareVelocities(const JointStage& stage) {
   }
   gatherPoses<W>(ids_, stage.pose, bodies_);
   gatherMasses<W>(ids_, stage.masses, bodies_);
-  kernels.seeGaps(view());
+  kernels.seeGaps(view(), false);
   kernels.seeLimits(view(), false);
   seeOthers(stage, false);
   bool changed[W];

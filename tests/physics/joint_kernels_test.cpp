@@ -100,7 +100,8 @@ struct Memory {
   void work(const JointKernels<W>& kernels) {
     const JointView<W> s = view();
     kernels.place(s);
-    kernels.seeGaps(s);
+    kernels.turnBack(s);
+    kernels.seeGaps(s, true);
     kernels.seeLimits(s, true);
     kernels.chooseLimits(s);
     kernels.factorize(s);
