@@ -20,7 +20,8 @@ constexpr LawWord kLaws[] = {{SubstepLaw::kLeast, "least", " (the least)"},
                              {SubstepLaw::kSag, "sag", " (sag of contacts)"},
                              {SubstepLaw::kOverlap, "overlap", " (overlap of points)"},
                              {SubstepLaw::kStrain, "strain", " (strain of the mesh)"},
-                             {SubstepLaw::kTurn, "turn", " (turn of the rope)"}};
+                             {SubstepLaw::kTurn, "turn", " (turn in a substep)"},
+                             {SubstepLaw::kApproach, "approach", " (speed of approach)"}};
 
 const LawWord& wordsOf(SubstepLaw law) {
   for (const LawWord& words : kLaws) {

@@ -8,7 +8,8 @@ namespace physics {
 namespace {
 
 // What contacts may give way by on the average of their load: as a share of the smaller body, or of
-// what the two move past each other in a step, whose end is known no better than that.
+// what the two move past each other in a step, whose end is known no better than that, but never by
+// a larger share of the body than meshes.
 constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 0.1;
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 constexpr double kLargestTurn =
@@ -16,7 +17,6 @@ constexpr double kLargestTurn =
 // Of its weight, what a body with joints may carry while contacts and joints take turns: a round
 // brings about as much as it weighs up to the joints, and a substep has three.
 constexpr double kMostCarried = 4;
-constexpr int kMostSubsteps = 64;
 // What the last velocity sweep may change, of the energy that an island has in g h^2 and in motion.
 constexpr double kRest = 1e-6;
 constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved again in each
@@ -34,7 +34,7 @@ int substepsForTurn(double turn) {
 // The sag that is small enough for a contact [m].
 double smallSag(const Bodies& b, const KeptContact& c, double size, double dt) {
   const double way = dt * (b.velocity[c.a].v - b.velocity[c.b].v).norm();
-  return std::max(kLargestSag * size, kLargestSagOfWay * way);
+  return std::max(kLargestSag * size, std::min(kLargestSagOfWay * way, kLargestStrain * size));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What steps together: articulations by constraints, islands by contacts as well, batches of
 // islands with as many substeps.
 #include <algorithm>
+#include <cmath>
 
 #include "physics/small_steps/small_steps_impl.h"
 
@@ -63,6 +64,34 @@ void SmallSteps::Impl::learn(Model& w) {
       }
     }
   }
+}
+
+namespace {
+
+// The largest speed that two bodies have along the normal, at a point of their contact.
+double approachOf(const Bodies& b, const KeptContact& c) {
+  const Vec3 n = normalOf(c, b.pose);
+  const auto speedOf = [&](BodyId i, const Vec3& core) {
+    return n.dot(b.velocity[i].v + b.velocity[i].w.cross(b.pose[i].q * core));
+  };
+  double most = 0;
+  for (int k = 0; k < c.count; ++k) {
+    const double speed = speedOf(c.a, c.points[k].coreA) - speedOf(c.b, c.points[k].coreB);
+    most = std::max(most, std::abs(speed));
+  }
+  return most;
+}
+
+}  // namespace
+
+// So that nothing comes further into another in a substep than a share of the smaller of both: what
+// is pushed on has to move before its neighbours are reached.
+int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) const {
+  constexpr double kLargestWay = 0.1;
+  const double size = std::min(radius[c.a], radius[c.b]);
+  if (!(size > 0)) return 1;
+  const double count = std::ceil(w.settings.dt * approachOf(w.bodies, c) / (kLargestWay * size));
+  return static_cast<int>(std::min<double>(count, kMostSubsteps));
 }
 
 // What touches and what does not are apart: joints are closed further where no contact pushes.
@@ -129,7 +158,11 @@ void SmallSteps::Impl::divide(Model& w) {
     if (articulationOf[i] >= 0 || deformableOf[i] >= 0) held[root] = Held::kJoined;
   }
   for (const KeptContact& c : contacts) {
-    if (stepsNow(c)) held[islands[bodyOf(c)]] = Held::kTouching;
+    if (!stepsNow(c)) continue;
+    const BodyId root = islands[bodyOf(c)];
+    held[root] = Held::kTouching;
+    want(root, substepsForApproach(w, c), SubstepLaw::kApproach);
+    substeps[root] = std::max(substeps[root], asked[root]);
   }
   for (const SoftPair& pair : softPairs) {
     Held& island = held[islands[softMoverOf(w, pair)]];

@@ -9,8 +9,8 @@ namespace physics {
 
 // What an island's substeps are asked for by, ask.cpp: nothing more than the settings' least; the
 // sag of contacts under their load; the overlap of points and links; the strain of what holds a
-// mesh; the turn of a rope's pieces.
-enum class SubstepLaw : char { kLeast, kSag, kOverlap, kStrain, kTurn };
+// mesh; the turn of a rope's pieces; the speed at which bodies approach each other (divide.cpp).
+enum class SubstepLaw : char { kLeast, kSag, kOverlap, kStrain, kTurn, kApproach };
 
 struct IslandPlan {
   BodyId first = 0;  // of its bodies

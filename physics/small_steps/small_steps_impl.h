@@ -54,6 +54,8 @@ struct LaneStart {
 // What pays for being dealt to threads.
 constexpr int kLeastBodies = 64, kLeastBlocks = 8;
 
+constexpr int kMostSubsteps = 64;
+
 // Islands of equal substeps and sweeps, which step side by side.
 struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
@@ -130,6 +132,7 @@ struct SmallSteps::Impl {
   bool choose(const Model& w, int parts);
   void spread(Model& w);
   void divide(Model& w);
+  int substepsForApproach(const Model& w, const KeptContact& c) const;
   void assign();
   Batch& batchFor(int substeps, int sweeps, bool touches);
   int colourOf(const Bodies& b, const KeptContact& c);

@@ -229,7 +229,7 @@ void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, VelocitySw
 }
 
 void SmallSteps::Impl::balanceContacts(Model& w, Batch& batch) {
-  forEachColour(w, batch, [&](ContactBlock* blocks, int count) {
+  sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
     contactKernels().balance(blocks, count, batch.motions.data());
   });
 }
