@@ -96,6 +96,7 @@ void SmallSteps::Impl::renewTurned(Model& w, Batch& batch) {
     if (!batch.turned[s]) continue;
     batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
     startRows(batch.motions[s]);
+    toLane(batch, static_cast<int>(s));
   }
   w.workers.forEachChunk(static_cast<int>(batch.blocks.size()), kLeastBlocks,
                          [&](int from, int to) {

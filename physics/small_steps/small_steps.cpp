@@ -87,7 +87,6 @@ void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
     for (int i = 0; i < count; ++i) {
       predict(w, batch, h, i == 0);
       if (i == 0 && !batch.blocks.empty()) rows(w, batch, h);
-      if (i > 0) renewTurned(w, batch);
       lookAgain(w, batch, h);
       noteApproach(w, batch, h);
       substep(w, batch, h, report);

@@ -309,6 +309,7 @@ void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& rep
   solvePositions(w, batch, h);
   profileScope("motion");
   displaceAll(w, batch, h);
+  renewTurned(w, batch);
   giveOtherHalf(w, batch, h);
   solveVelocities(w, batch, h);
   profileScope("motion");
