@@ -146,6 +146,15 @@ void fillLoads(const KeptContact& c, double h, ContactBlock& block, int l) {
   }
 }
 
+// From where both bodies are pushed to the surface of a: half of the gap. Of what one surface has
+// slipped along the other nothing, where a is rounder: its point rolls, and b's stays behind; and
+// all of it where b is.
+Vec3 ofGap(const ContactPoint& point, const Vec3& gap, const Vec3& n) {
+  const Vec3 open = gap.dot(n) * n, slip = gap - open;
+  if (point.radiusA == point.radiusB) return 0.5 * gap;
+  return 0.5 * open + (point.radiusA > point.radiusB ? 0 : 1) * slip;
+}
+
 }  // namespace
 
 void emptyLane(ContactBlock& block, int l) {
@@ -168,9 +177,9 @@ void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& b
     const ContactPoint& shape = c.points[k];
     const Vec3 onA = rotationA * shape.coreA - shape.radiusA * n;  // from a's centre
     const Vec3 onB = rotationB * shape.coreB + shape.radiusB * n;  // from b's
-    const Vec3 gap = apart + onA - onB, half = 0.5 * gap;
-    put(p.wA, l, onA - half);
-    put(p.wB, l, onB + half);
+    const Vec3 gap = apart + onA - onB, ofA = ofGap(shape, gap, n);
+    put(p.wA, l, onA - ofA);
+    put(p.wB, l, onB + gap - ofA);
     block.gap[k][l] = static_cast<float>(gap.dot(n));
     p.inverse[l] = 1;
   }
