@@ -88,9 +88,17 @@ double approachOf(const Bodies& b, const KeptContact& c) {
 // is pushed on has to move before its neighbours are reached.
 int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) const {
   constexpr double kLargestWay = 0.1;
+  const Bodies& b = w.bodies;
   const double size = std::min(radius[c.a], radius[c.b]);
   if (!(size > 0)) return 1;
-  const double count = std::ceil(w.settings.dt * approachOf(w.bodies, c) / (kLargestWay * size));
+  const auto turning = [&](BodyId i) {
+    const double spin = b.velocity[i].w.norm();
+    return spin > 0 ? radius[i] * spin : 0;
+  };
+  const double most = (b.velocity[c.a].v - b.velocity[c.b].v).norm() + turning(c.a) + turning(c.b);
+  const double way = kLargestWay * size / w.settings.dt;  // a substep's, by their number
+  if (most <= way * std::max(1, w.settings.substeps)) return 1;
+  const double count = std::ceil(approachOf(b, c) / way);
   return static_cast<int>(std::min<double>(count, kMostSubsteps));
 }
 
