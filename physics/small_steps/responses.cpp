@@ -148,14 +148,17 @@ void SmallSteps::Impl::spread(Batch& batch, int slot, const float (&given)[6]) c
   Responder& from = batch.responders[slot];
   const JointResponse& response = articulations[from.articulation].response();
   for (int c = 0; c < 6; ++c) from.given[c] += given[c];
-  for (std::size_t to = 0; to < response.size(); ++to) {
-    LaneMotion& motion = batch.motions[response.slots[to]];
-    const float* column = response.block(to, from.place);
-    for (int c = 0; c < 6; ++c, column += JointResponse::kColumn) {
-      for (int k = 0; k < 3; ++k) {
-        motion.u[k] += column[k] * given[c];
-        motion.turn[k] += column[3 + k] * given[c];
-      }
+  constexpr int kColumn = JointResponse::kColumn;
+  const float* column = response.block(0, from.place);
+  for (const int slot : response.slots) {
+    float sum[kColumn] = {};
+    for (int c = 0; c < 6; ++c, column += kColumn) {
+      for (int k = 0; k < kColumn; ++k) sum[k] += column[k] * given[c];
+    }
+    LaneMotion& motion = batch.motions[slot];
+    for (int k = 0; k < 3; ++k) {
+      motion.u[k] += sum[k];
+      motion.turn[k] += sum[3 + k];
     }
   }
 }

@@ -9,7 +9,7 @@
 // A contact gives way as the spring and damper of (117)-(124), as stiff as the substep resolves:
 //   position   c > 0:  dlambda = -(J u + c) / A
 //              else    dlambda = -(s J u + r c) / A - (1 - s) lambda
-//                      r = min(s b, push / depth of the deepest)
+//                      r = min(s b, push / depth of the deepest), s b of what it is drawn by at rest
 //   velocity           dlambda = -(J u + max(c, 0)) / A, and friction on the disc of (96)-(101)
 // with the total projected on lambda >= 0. What is deep is taken back by the same share at all
 // points of a manifold, so that it does not tilt on its way out. c is counted from where the spring
@@ -64,6 +64,7 @@ struct alignas(32) ContactBlock {
   float staticFriction[8], dynamicFriction[8];
   float gap[kPoints][8];
   float held[kPoints][8];   // what it carries where the bodies just touch
+  float drawn[kPoints][8];  // by so much it is compressed there [m]
   float scale[8], rate[8];  // softness
   float change[8];          // sum of A dlambda^2 in the last velocity sweep
   int contact[8];           // index of the contact, -1: an empty lane

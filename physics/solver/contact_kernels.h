@@ -101,16 +101,18 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float push
   for (int i = 0; i < kCount; ++i) {
     c[i] = gapOf(m, i, apart, sinceA, sinceB);
     v[i] = rateOf(m.point[i], along, a, b);
-    deepest = larger(deepest, zero - c[i]);
+    deepest = larger(deepest, zero - (c[i] + load(m.drawn[i])));
   }
-  const Lanes share = smaller(soft * load(m.rate), all(pushed) / deepest);
+  const Lanes full = soft * load(m.rate), share = smaller(full, all(pushed) / deepest);
   // Twice: the first point of a sweep is pushed for all, and the bodies would tilt.
   Lanes lambda[kCount];
   for (int i = 0; i < kCount; ++i) lambda[i] = load(m.point[i].lambda);
   for (int pass = 0; pass < 2; ++pass) {
     for (int i = 0; i < kCount; ++i) {
       const Lanes inverse = load(m.point[i].inverse), scale = wherePositive(c[i], one, soft);
-      const Lanes aim = wherePositive(c[i], c[i], share * c[i]);
+      const Lanes drawn = load(m.drawn[i]);
+      const Lanes back = share * (c[i] + drawn) - full * drawn;
+      const Lanes aim = wherePositive(c[i], c[i], back);
       const Lanes yields = (one - scale) * lambda[i];
       const Lanes total = larger(lambda[i] - yields - inverse * (scale * v[i] + aim), zero);
       const Lanes delta = total - lambda[i];

@@ -109,7 +109,9 @@ inline void prepareBlock(ContactBlock& m, const LaneMass* masses, float reach) {
     store(p.inverse, wherePositive(resistance * exists, one / larger(resistance, tiny), zero));
     const Lanes stiffness = load(p.inverse) * soft * load(m.rate);
     const Lanes sag = (one - soft) * load(m.held[i]) / larger(stiffness, tiny);
-    store(m.gap[i], load(m.gap[i]) - wherePositive(stiffness, sag, zero));
+    const Lanes drawn = wherePositive(stiffness, sag, zero);
+    store(m.drawn[i], drawn);
+    store(m.gap[i], load(m.gap[i]) - drawn);
     for (int k = 0; k < i; ++k) {
       store(m.coupling[couplingOf(k, i)], a.mass + b.mass + turnedBy(m.point[k], p));
     }
