@@ -37,8 +37,7 @@ Json describeSettings(const scenes::Scene& scene) {
                {"method", static_cast<int>(s.method)},
                {"stepping", static_cast<int>(s.stepping)},
                {"relaxation", s.relaxation},
-               {"regularisation", s.regularisation},
-               {"warm_start", s.warmStart}};
+               {"regularisation", s.regularisation}};
   json["gravity"] = s.gravity ? toJson(*s.gravity) : Json();
   json["contact"] = s.contact ? describeContact(*s.contact) : Json();
   return json;

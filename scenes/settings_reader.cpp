@@ -15,7 +15,7 @@ using physics::Unit;
 
 constexpr const char* kMethods[] = {
     "nonlinear_gauss_seidel", "direct",  "linear_gauss_seidel", "xpbd",
-    "sequential_impulses",    "penalty", "penalty_explicit",     "small_steps"};
+    "sequential_impulses",    "penalty", "penalty_explicit",    "small_steps"};
 constexpr const char* kSteppings[] = {"paper", "static", "bdf2", "symmetric"};
 constexpr const char* kRegularisations[] = {"compliance", "damping"};
 constexpr const char* kInertias[] = {"plain", "spinning"};
@@ -33,13 +33,9 @@ void readSimulation(TableReader& reader, Scene& scene) {
   reader(Field{"fps", Unit::kNone, false, 1, 1e6}, scene.fps);
   reader(Field{"substeps", Unit::kNone, false, 1, 1e6}, settings.substeps);
   reader(Field{"iterations", Unit::kNone, false, 1, 1e6}, settings.iterations);
-  reader(Field{"max_iterations", Unit::kNone, false, 0, 1e6}, settings.maxIterations);
-  reader(Field{"tolerance", Unit::kMetre, false, 0}, settings.tolerance);
   reader(Field{"penalty_stiffness", Unit::kNone, false, 1e-6, 1e12}, settings.penaltyStiffness);
   reader(Field{"relaxation", Unit::kNone, false, 0.01, 1.99}, settings.relaxation);
   reader(Field{"regularisation", Unit::kNone, false, 0, 1e6}, settings.regularisation);
-  reader(Field{"warm_start"}, settings.warmStart);
-  reader(Field{"warm_start_joints"}, settings.warmStartJoints);
   reader(Field{"max_correction_speed", Unit::kNone, false, kPositive}, settings.maxCorrectionSpeed);
   reader(Field{"local_substeps"}, settings.localSubsteps);
   reader(Field{"local_tolerance", Unit::kMetre, false, kPositive}, settings.localTolerance);

@@ -71,7 +71,7 @@ struct Simulation::Impl {
   Scene scene;
   Built built;
   int frame = 0;
-  int iterations = 0, restarts = 0, fallbacks = 0, asleep = 0, bounded = 0;
+  int iterations = 0, restarts = 0, fallbacks = 0, asleep = 0;
   bool finite = true;
 
   explicit Impl(const Scene& s) : scene(s), built(s.settings) {
@@ -104,7 +104,6 @@ physics::StepReport Simulation::advance() {
   impl_->restarts = report.restarts;
   impl_->fallbacks = report.fallbacks;
   impl_->asleep = report.asleep;
-  impl_->bounded = report.bounded;
   impl_->finite = !report.notFinite;
   if (impl_->finite) ++impl_->frame;
   return report;
@@ -112,7 +111,7 @@ physics::StepReport Simulation::advance() {
 
 bool Simulation::place(std::span<const physics::Pose> poses,
                        std::span<const physics::Velocity> velocities) {
-  impl_->iterations = impl_->restarts = impl_->fallbacks = impl_->asleep = impl_->bounded = 0;
+  impl_->iterations = impl_->restarts = impl_->fallbacks = impl_->asleep = 0;
   impl_->finite = impl_->built.world.setState(poses, velocities);
   if (impl_->finite) ++impl_->frame;
   return impl_->finite;
@@ -147,7 +146,6 @@ FrameMetrics Simulation::metrics() const {
   metrics.restarts = impl_->restarts;
   metrics.fallbacks = impl_->fallbacks;
   metrics.asleep = impl_->asleep;
-  metrics.bounded = impl_->bounded;
   return metrics;
 }
 

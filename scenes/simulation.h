@@ -24,8 +24,7 @@ struct FrameMetrics {
   double maxSpeed = 0;
   int contacts = 0;
   int iterations = 0;
-  int asleep = 0;   // bodies
-  int bounded = 0;  // islands whose energy was bounded, over the substeps
+  int asleep = 0;  // bodies
   int restarts = 0,
       fallbacks = 0;  // of second-order steppings, body by body; physics/model/report.h
 };

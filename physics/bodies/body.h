@@ -39,9 +39,8 @@ struct InverseMass {
   Mat3 inertia = Mat3::Zero();  // 1/(kg m^2), at the pose of the last refresh
 };
 
-// Displacement of this substep that only takes back an error which stood at X^t (an open joint, an
-// overlap). It moves the body and does not become velocity. paper.md
-struct Correction {
+// A displacement of one body.
+struct DeltaX {
   Vec3 dx = Vec3::Zero();      // m
   Vec3 dtheta = Vec3::Zero();  // rad, world frame
 };
@@ -51,7 +50,7 @@ enum class Scheme : std::uint8_t { kPaper, kBdf2, kSymmetric };
 
 // The substep before this one, as `bdf2` needs it.
 struct History {
-  Vec3 dx = Vec3::Zero(), dtheta = Vec3::Zero();  // X^{t-1} -> X^t, without corrections
+  Vec3 dx = Vec3::Zero(), dtheta = Vec3::Zero();  // X^{t-1} -> X^t
   Vec3 velocity = Vec3::Zero();                   // v^{t-1} [m/s]
   Vec3 angularMomentum = Vec3::Zero();            // L^{t-1} about the centre, world [kg m^2/s]
   bool smooth = false;                            // no velocity jumped in it
@@ -70,8 +69,8 @@ struct SecondOrder {
   std::vector<Vec3> target;           // angular momentum of the substep without constraints, world
   std::vector<Vec3> twist;            // sum of J_theta^T lambda, world, in the units of lambda
   std::vector<Vec3> jointTwist;       // the same of the joints that the direct method solves
-  std::vector<Correction> kick;  // of forces, symmetric scheme: M^-1 P and T, applied once more
-  double h = 0;                  // the substep [s]
+  std::vector<DeltaX> kick;  // of forces, symmetric scheme: M^-1 P and T, applied once more
+  double h = 0;              // the substep [s]
 
   bool empty() const { return scheme.empty(); }
 };
@@ -86,8 +85,7 @@ struct Bodies {
   std::vector<Vec3> inertia;         // principal, body frame
   std::vector<double> mass;
   std::vector<Motion> motion;
-  std::vector<Vec3> shift;             // sum of the displacements Delta x of this substep [m]
-  std::vector<Correction> correction;  // the part of the displacement that is not motion
+  std::vector<Vec3> shift;     // sum of the displacements Delta x of this substep [m]
   std::vector<Vec3> freeTurn;  // log of the predicted rotation of this substep, world frame [rad]
   std::vector<Shape> shape;
   std::vector<Friction> friction;

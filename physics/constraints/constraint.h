@@ -103,12 +103,9 @@ struct Scratch {
 template <class C>
 struct Multipliers {
   using Vector = typename Row<C::kBodies, C::kRows>::Vector;
-  Vector total = Vector::Zero();     // accumulated, of the motion; the next substep's first guess
-  Vector once = Vector::Zero();      // accumulated, of the error that stood at X^t
-  Vector standing = Vector::Zero();  // that error, where it is taken back without speed
-  Vector left = Vector::Zero();      // of an error at X^t, what is left to later substeps
-  bool loaded = false;               // it had a multiplier in the last substep
-  double step = 0;                   // the dt that `total` belongs to [s]
+  Vector total = Vector::Zero();  // accumulated
+  bool loaded = false;            // it had a multiplier in the last substep
+  double step = 0;                // the dt that `total` belongs to [s]
 };
 
 // The constraints of one kind, in the order they were added.
@@ -117,9 +114,7 @@ struct Set {
   using Vector = typename Row<C::kBodies, C::kRows>::Vector;
   struct Tuned {
     double relaxation, regularisation;
-    bool split = false;    // what stands wrong at X^t is taken back without becoming velocity
-    bool touches = false;  // contacts may do so to its bodies
-    bool damps = false;    // the regularisation is in mu alone
+    bool damps = false;  // the regularisation is in mu alone
   };
   std::vector<C> items;
   std::vector<int> active;  // items that are solved: all, but for those of bodies that sleep

@@ -43,30 +43,22 @@ Eigen::Matrix<double, C::kRows, C::kRows> effectiveMassInverse(const C& item,
 
 // Displaces one body by the change `delta` of a multiplier.
 template <class C>
-Correction displacementOf(const Response<C>& response, std::size_t b,
-                          const typename Set<C>::Vector& delta) {
-  Correction moved;
+DeltaX displacementOf(const Response<C>& response, std::size_t b,
+                      const typename Set<C>::Vector& delta) {
+  DeltaX moved;
   if constexpr (C::kLinear) moved.dx = response.linear[b].lazyProduct(delta);
   if constexpr (isAngular<C>()) moved.dtheta = response.angular[b].lazyProduct(delta);
   return moved;
 }
 
 template <class C>
-void displaceBodies(const C& item, const Response<C>& response, const typename Set<C>::Vector& once,
-                    const typename Set<C>::Vector& lasting, Bodies& bodies) {
-  const bool corrects = !once.isZero(0);
-  if (!corrects && lasting.isZero(0)) return;
+void displaceBodies(const C& item, const Response<C>& response,
+                    const typename Set<C>::Vector& delta, Bodies& bodies) {
+  if (delta.isZero(0)) return;
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     const BodyId id = item.bodies[b];
-    Correction moved = displacementOf<C>(response, b, lasting);
+    const DeltaX moved = displacementOf<C>(response, b, delta);
     if constexpr (C::kLinear) bodies.shift[id] += moved.dx;
-    if (corrects) {
-      const Correction taken = displacementOf<C>(response, b, once);
-      bodies.correction[id].dx += taken.dx;
-      bodies.correction[id].dtheta += taken.dtheta;
-      moved.dx += taken.dx;
-      moved.dtheta += taken.dtheta;
-    }
     if constexpr (isAngular<C>()) {
       displace(bodies.pose[id], moved.dx, moved.dtheta);
     } else {
@@ -117,13 +109,13 @@ void countTwist(const C& item, const Evaluated<C>& row, const typename Set<C>::V
   }
 }
 
-// J dX of a correction.
+// J dX.
 template <class C>
 typename Set<C>::Vector along(const C& item, const Evaluated<C>& row,
-                              std::span<const Correction> correction) {
+                              std::span<const DeltaX> displaced) {
   typename Set<C>::Vector sum = Set<C>::Vector::Zero();
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const Correction& moved = correction[item.bodies[b]];
+    const DeltaX& moved = displaced[item.bodies[b]];
     if constexpr (C::kLinear) sum += row.linear[b].lazyProduct(moved.dx);
     if constexpr (isAngular<C>()) sum += row.angular[b].lazyProduct(moved.dtheta);
   }

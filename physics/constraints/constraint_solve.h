@@ -61,25 +61,6 @@ typename Set<C>::Vector standingError(const Evaluated<C>& row) {
   }
 }
 
-// How much of `standing` is to be taken back where the whole error is c: a bound gives way as far
-// as it has room.
-template <int B, int R>
-typename Row<B, R>::Vector toTakeBack(const Row<B, R>& row,
-                                      const typename Row<B, R>::Vector& standing,
-                                      const typename Row<B, R>::Vector& c) {
-  if (row.high <= 0) return standing.cwiseMin(c);
-  if (row.low >= 0) return standing.cwiseMax(c);
-  return standing;
-}
-
-// The error c but for what is left to later substeps; that may close, and is not held open.
-template <class V>
-V withoutLeft(const V& c, const V& left) {
-  const double squared = left.squaredNorm();
-  if (squared == 0) return c;
-  return c - std::clamp(c.dot(left) / squared, 0.0, 1.0) * left;
-}
-
 // The new total of a constraint whose error is c.
 template <class C>
 typename Set<C>::Vector solved(const C& item, const Evaluated<C>& row,
@@ -108,39 +89,25 @@ typename Set<C>::Vector pushed(const Evaluated<C>& push,
   return next;
 }
 
-// A constraint's error is split into what the motion of this substep made (solved by `total`, which
-// lasts) and what did not come by motion (solved by `once`, which is forgotten, and moves bodies
-// without speeding them): what contacts take back of their overlap, and, where it is `split`, what
-// stood wrong at the start. False: a change was not finite.
+// One visit, (52),(53). False: the change was not finite.
 template <class C>
 bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
            Bodies& bodies, const Configuration& at, Scratch<C>& s) {
   item.evaluate(at, s.row);
   if (!s.row.active) return true;
   const auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
-  const double mean = a.trace() / C::kRows;
-  if (!(mean > 1e-300)) return mean == mean;  // nothing here can move
-  using Vector = typename Set<C>::Vector;
-  Vector once = Vector::Zero(), lasting;
+  if (!(a.trace() > 0)) return a.trace() == a.trace();  // nothing here can move
+  typename Set<C>::Vector next;
   if constexpr (Force<C>) {
-    lasting = pushed<C>(s.row, a, tuned.relaxation, lambda.total) - lambda.total;
+    next = pushed<C>(s.row, a, tuned.relaxation, lambda.total);
   } else {
-    Vector c = withoutLeft(s.row.c, lambda.left);
-    if (tuned.split || tuned.touches) {
-      const Vector standing = lambda.standing + along(item, s.row, bodies.correction);
-      if (!standing.isZero(0) || !lambda.once.isZero(0)) {
-        once = solved(item, s.row, a, tuned, toTakeBack(s.row, standing, c), lambda.once) -
-               lambda.once;
-        c -= wrongPart(s.row, standing);
-      }
-    }
-    lasting = solved(item, s.row, a, tuned, c, lambda.total) - lambda.total;
+    next = solved(item, s.row, a, tuned, s.row.c, lambda.total);
   }
-  if (!once.allFinite() || !lasting.allFinite()) return false;
-  lambda.once += once;
-  lambda.total += lasting;
-  displaceBodies(item, s.response, once, lasting, bodies);
-  countTwist(item, s.row, lasting, bodies);
+  if (!next.allFinite()) return false;
+  const typename Set<C>::Vector change = next - lambda.total;
+  lambda.total = next;
+  displaceBodies(item, s.response, change, bodies);
+  countTwist(item, s.row, change, bodies);
   return true;
 }
 

@@ -29,10 +29,10 @@ bool pushSymmetric(const C& item, Multipliers<C>& lambda, const typename Set<C>:
   if (!change.allFinite()) return false;
   lambda.step = 0.5 * second.h;
   lambda.total += change;  // force times (h/2)^2; it moves the bodies by h^2/2
-  displaceBodies(item, s.response, Vector::Zero(), (2 * change).eval(), bodies);
+  displaceBodies(item, s.response, (2 * change).eval(), bodies);
   countTwist(item, s.row, (2 * change).eval(), bodies);
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    Correction& kick = second.kick[item.bodies[b]];
+    DeltaX& kick = second.kick[item.bodies[b]];
     if constexpr (C::kLinear) kick.dx += 2 * s.response.linear[b].lazyProduct(change);
     if constexpr (isAngular<C>()) kick.dtheta += 2 * (s.row.angular[b].transpose() * change);
   }
@@ -48,7 +48,7 @@ bool solveSymmetric(const C& item, Multipliers<C>& lambda, const typename Set<C>
     const double dt = stepOf(item, bodies, 0);
     item.evaluate({bodies.pose, bodies.start, dt}, s.row);
     if (!s.row.active) return true;
-    const typename Set<C>::Vector c = withoutLeft(s.row.c, lambda.left);
+    const typename Set<C>::Vector c = s.row.c;
     item.evaluate({bodies.start, bodies.start, dt}, s.row);  // its J
     const auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
     if (!(a.trace() > 1e-300)) return a.trace() == a.trace();
@@ -56,7 +56,7 @@ bool solveSymmetric(const C& item, Multipliers<C>& lambda, const typename Set<C>
         solved(item, s.row, a, tuned, c, lambda.total) - lambda.total;
     if (!change.allFinite()) return false;
     lambda.total += change;
-    displaceBodies(item, s.response, Set<C>::Vector::Zero(), change, bodies);
+    displaceBodies(item, s.response, change, bodies);
     countTwist(item, s.row, change, bodies);
     return true;
   }
@@ -79,7 +79,7 @@ double projectVelocity(const C& item, Bodies& bodies, Scratch<C>& s) {
   }
   const typename Set<C>::Vector mu = -(a.inverse() * rate);
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const Correction change = displacementOf<C>(s.response, b, mu);
+    const DeltaX change = displacementOf<C>(s.response, b, mu);
     bodies.velocity[item.bodies[b]].v += change.dx;
     bodies.velocity[item.bodies[b]].w += change.dtheta;
   }

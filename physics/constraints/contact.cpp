@@ -1,6 +1,7 @@
 // Contact: keeping manifolds over steps, and the geometry of a point.
 #include "physics/constraints/contact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -80,6 +81,19 @@ void update(Contacts& contacts, std::span<const Manifold> manifolds, const Bodie
     }
     contacts.pairs.push_back(fresh);
   }
+}
+
+bool isLoaded(const ContactPair& pair) {
+  return std::any_of(pair.points.begin(), pair.points.begin() + pair.count,
+                     [](const ContactPointState& p) { return p.normalTotal > 0; });
+}
+
+Vec3 impulseOf(const ContactPair& pair) {
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < pair.count; ++k) {
+    sum += pair.points[k].normalTotal * pair.points[k].normal + pair.points[k].frictionTotal;
+  }
+  return sum;
 }
 
 Vec3 normalOf(const ContactPair& pair, std::span<const Pose> pose) {

@@ -53,9 +53,9 @@ bool solveFriction(SoftContact& contact, Bodies& bodies, double xi) {
   const double size = slip.norm();
   Vec3 next = contact.frictionTotal;
   const Vec3 arm = p - contact.radius * n - b.x;
-  if (size > 1e-14) {
+  if (size > 0) {
     const double resistance = directionOf(contact, slip / size, arm, bodies).resistance;
-    if (!(resistance > 1e-300)) return resistance == resistance;
+    if (!(resistance > 0)) return resistance == resistance;
     next -= xi / resistance * slip;
   }
   next -= next.dot(n) * n;
@@ -104,15 +104,14 @@ void startSoftContacts(std::span<const SoftTouch> touches, const SoftCollider& c
   }
 }
 
-bool solve(SoftContact& contact, Bodies& bodies, double xi, double allowance) {
+bool solve(SoftContact& contact, Bodies& bodies, double xi) {
   const double c = gapOf(contact, bodies.pose);
   if (c >= 0 && contact.normalTotal == 0) return true;
   const Vec3 n = bodies.pose[contact.body].q * contact.normal;
   const Vec3 arm = pointOf(contact, bodies.pose) - contact.radius * n - bodies.pose[contact.body].x;
   const SoftDirection row = directionOf(contact, n, arm, bodies);
-  if (!(row.resistance > 1e-300)) return row.resistance == row.resistance;
-  const double wanted = c + std::max(0.0, -contact.gapAtStart - allowance);
-  const double next = std::max(contact.normalTotal - xi * wanted / row.resistance, 0.0);  // (95)
+  if (!(row.resistance > 0)) return row.resistance == row.resistance;
+  const double next = std::max(contact.normalTotal - xi * c / row.resistance, 0.0);  // (95)
   const double change = next - contact.normalTotal;
   if (!std::isfinite(change)) return false;
   contact.normalTotal = next;

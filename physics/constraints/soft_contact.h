@@ -3,8 +3,6 @@
 //   c = (p - p_b) . n - radius >= 0 [m]   dc/dx_0 = (1 - t) n, dc/dx_1 = t n, b as in (92)
 //   (91)-(95) friction against the matter of b that was at p when the substep began, along the slip
 //   (96)-(101)
-// The scheme is the paper's: no warm start, an overlap that exists leaves no faster than v_max.
-// NOTES 3.3
 #pragma once
 
 #include <vector>
@@ -47,7 +45,7 @@ void startSoftContacts(std::span<const SoftTouch> touches, const SoftCollider& c
                        const Bodies& bodies, std::vector<SoftContact>& contacts);
 
 // One visit. False: a change was not finite.
-bool solve(SoftContact& contact, Bodies& bodies, double xi, double allowance);
+bool solve(SoftContact& contact, Bodies& bodies, double xi);
 
 double gapOf(const SoftContact& contact, std::span<const Pose> pose);
 Vec3 pointOf(const SoftContact& contact, std::span<const Pose> pose);  // p, world

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kResolved = 0.5;   // w h of a spring
 constexpr double kLargestTurn = 1;  // rad in a substep
-constexpr double kTouching = 1e-4;  // m: overlap that contacts leave alone
 constexpr double kEasy = 0.125;     // of the tolerance: with half the substeps it is below a half
 constexpr int kCalm = 8;            // steps
 
@@ -50,7 +49,7 @@ std::vector<Need> needs(WorldState& w) {
   for (const ContactPair& pair : w.contacts.pairs) {
     Need& need = needs[islands[isMovable(w.bodies, pair.a) ? pair.a : pair.b]];
     for (int k = 0; k < pair.count; ++k) {
-      need.error = std::max(need.error, -gapOf(pair, k, w.bodies.pose) - kTouching);
+      need.error = std::max(need.error, -gapOf(pair, k, w.bodies.pose));
     }
   }
   for (const BodyId i : w.bodies.active) {

@@ -16,7 +16,6 @@ bool lowerSchemes(WorldState& world, double h);
 
 // What a solve tells, body by body: Stepper's smooth, parted, bounded and unresolved.
 void inspectMotion(WorldState& world, double h);
-bool isLoaded(const ContactPair& pair);
 double jumpSpeed(const WorldState& world, double h);  // what gravity gives in two substeps [m/s]
 bool jumps(const ContactPair& pair, double speed);    // it began, closing faster than that
 

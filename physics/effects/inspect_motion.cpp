@@ -120,10 +120,6 @@ void compareContacts(WorldState& w, double least) {
     }
     stepper.parted[pair.a] = stepper.parted[pair.b] = true;
   }
-  for (const ContactPair& pair : w.contacts.lost) {
-    if (!(speedGiven(w, pair) > least) || findPair(w.contacts.pairs, pair.a, pair.b)) continue;
-    stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
-  }
 }
 
 void inspectContacts(WorldState& w, double h) {
@@ -143,11 +139,6 @@ void inspectContacts(WorldState& w, double h) {
 
 }  // namespace
 
-bool isLoaded(const ContactPair& pair) {
-  return std::any_of(pair.points.begin(), pair.points.begin() + pair.count,
-                     [](const ContactPointState& p) { return p.normalTotal > 0; });
-}
-
 // Speeds that gravity gives within two steps are no jump.
 double jumpSpeed(const WorldState& w, double h) {
   return w.settings.gravity ? 2 * h * w.settings.gravity->norm() : 0;
@@ -156,14 +147,14 @@ double jumpSpeed(const WorldState& w, double h) {
 bool jumps(const ContactPair& pair, double speed) {
   for (int k = 0; k < pair.count; ++k) {
     const ContactPointState& p = pair.points[k];
-    if (p.normalTotal > 0 && p.normalBefore == 0 && p.approach < -speed) return true;
+    if (p.normalTotal > 0 && !p.loaded && p.approach < -speed) return true;
   }
   return false;
 }
 
 double speedGiven(const WorldState& w, const ContactPair& pair) {
   const double inverseMass = w.bodies.inverse[pair.a].m + w.bodies.inverse[pair.b].m;
-  return pair.step > 0 ? inverseMass * pair.given.norm() / pair.step : 0;
+  return pair.step > 0 ? inverseMass * impulseOf(pair).norm() / pair.step : 0;
 }
 
 void inspectMotion(WorldState& w, double h) {

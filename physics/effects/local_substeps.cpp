@@ -62,19 +62,6 @@ void numberIslands(WorldState& w) {
   }
 }
 
-// Multipliers are impulses times the substep: to those of the new one.
-void rescale(WorldState& w, ContactPair& pair) {
-  const BodyId body = isMovable(w.bodies, pair.a) ? pair.a : pair.b;
-  if (!w.bodies.second.empty() || w.local.last[body] == w.local.substeps[body]) return;
-  const double ratio = static_cast<double>(w.local.last[body]) / w.local.substeps[body];
-  for (int k = 0; k < pair.count; ++k) {
-    ContactPointState& p = pair.points[k];
-    p.normalTotal *= ratio * ratio;
-    p.normalBefore *= ratio * ratio;
-    p.frictionTotal *= ratio * ratio;
-  }
-}
-
 Group& groupOf(WorldState& w, int substeps) {
   std::vector<Group>& groups = w.local.groups;
   const auto at = std::find_if(groups.begin(), groups.end(),
@@ -100,8 +87,7 @@ void share(WorldState& w) {
     }
     ++kindIndex;
   });
-  for (ContactPair& pair : w.contacts.pairs) {
-    rescale(w, pair);
+  for (const ContactPair& pair : w.contacts.pairs) {
     const BodyId body = isMovable(w.bodies, pair.a) ? pair.a : pair.b;
     groupOf(w, substeps[body]).contacts.push_back(pair);
   }

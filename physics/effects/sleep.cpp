@@ -65,7 +65,6 @@ void stop(WorldState& w, BodyId i) {
   b.velocity[i] = {};
   b.start[i] = w.ahead[i] = w.last.pose[i] = b.pose[i];
   w.last.velocity[i] = {};
-  b.correction[i] = {};
   b.shift[i].setZero();
   b.freeTurn[i].setZero();
   if (!b.second.empty()) b.second.origin[i] = b.second.before[i] = b.pose[i];

@@ -23,7 +23,9 @@ void join(const Bodies& bodies, Islands& islands, BodyId a, BodyId b) {
 }
 
 void joinPushed(const Contacts& contacts, const Bodies& bodies, Islands& islands) {
-  forEachPush(contacts, [&](const ContactPair& pair) { join(bodies, islands, pair.a, pair.b); });
+  for (const ContactPair& pair : contacts.pairs) {
+    if (isLoaded(pair)) join(bodies, islands, pair.a, pair.b);
+  }
 }
 
 void settle(Islands& islands, std::span<const BodyId> bodies) {

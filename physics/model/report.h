@@ -38,9 +38,7 @@ struct StepReport {
   int restarts = 0;   // made without a past: at the start, and where velocities jumped
   int fallbacks = 0;  // made by bdf2 where the symmetric scheme was asked for
   int asleep = 0;     // bodies, at the end of the step
-  int bounded = 0;    // islands whose energy was bounded, over all substeps
   StepWork work;
-  double residual = 0;  // largest contact error that the last sweep met [m]
   struct NotFinite {
     int substep = 0;
     BodyId body = -1;

@@ -32,7 +32,7 @@ enum class Regularisation {
 struct ContactSettings {
   Friction friction;
   double restitution = 0;         // 0..1
-  double maxSeparationSpeed = 1;  // v_max: overlap that exists already is resolved no faster [m/s]
+  double maxSeparationSpeed = 1;  // overlap that exists is resolved no faster [m/s]; not (52)'s
   double margin = 0.02;           // gaps below this are watched at rest [m]
 };
 
@@ -45,21 +45,16 @@ struct SleepSettings {
 struct Settings {
   double dt = 1.0 / 60;  // one step() [s]
   int substeps = 4;
-  int iterations = 1;       // sweeps over all constraints per substep, at least
-  int maxIterations = 40;   // and at the most, while contacts still move by more than
-  double tolerance = 2e-7;  // this in a sweep [m]
+  int iterations = 1;  // sweeps over all constraints per substep, N of Algorithm 1
   Method method = Method::kSmallSteps;
   Stepping stepping = Stepping::kPaper;
   double relaxation = 1;      // xi (53)
   double regularisation = 0;  // epsilon, alpha = epsilon * J M^-1 J^T (54)
   Regularisation regularisationForm = Regularisation::kCompliance;
-  bool spinInertia = false;    // M~ of (36),(65) instead of M, where |w| h <= 0.2
-  bool refreshInertia = true;  // inertia follows the turn of every iteration (4.1)
-  bool warmStart = true;       // contacts start from the last substep's multipliers
-  bool warmStartJoints =
-      false;  // and so do joints: better at rest, but violent motion may gain energy
-  std::optional<double> maxCorrectionSpeed;  // a joint's error at X^t is taken back no faster [m/s,
-                                             // rad/s]; absent: in one substep
+  bool spinInertia = false;                  // M~ of (36),(65) instead of M, where |w| h <= 0.2
+  bool refreshInertia = true;                // inertia follows the turn of every iteration (4.1)
+  std::optional<double> maxCorrectionSpeed;  // small steps: a joint's error at X^t is taken back no
+                                             // faster [m/s, rad/s]; absent: in one substep
   std::optional<double> penaltyStiffness;    // kappa of the penalty methods; absent: their own
   std::optional<Vec3> gravity;               // m/s^2; absent: none
   std::optional<ContactSettings> contact;    // absent: nothing touches

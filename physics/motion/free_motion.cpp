@@ -68,10 +68,6 @@ FreeTurn solveParts(const Vec3& inertia, const Vec3& omega, double dt, int parts
 
 }  // namespace
 
-Quat movedOrientation(const Bodies& bodies, BodyId i) {
-  return exponential(-bodies.correction[i].dtheta) * bodies.pose[i].q;
-}
-
 bool isIsotropic(const Vec3& inertia) {
   return inertia.x() == inertia.y() && inertia.y() == inertia.z();
 }
@@ -98,7 +94,6 @@ void moveFreely(Bodies& bodies, BodyId i, const Load& load, const std::optional<
   if (bodies.motion[i] == Motion::kStatic) return;
   Velocity& velocity = bodies.velocity[i];
   bodies.shift[i].setZero();
-  bodies.correction[i] = {};
   if (bodies.motion[i] == Motion::kDynamic) {
     if (gravity) velocity.v += dt * *gravity;  // (28)
     velocity.v += dt * bodies.inverse[i].m * load.force;
@@ -122,8 +117,8 @@ void finishVelocity(Bodies& bodies, BodyId i, double dt) {
   bodies.velocity[i].v += bodies.shift[i] / dt;  // (43)
   if (bodies.inverseInertia[i].isZero(0)) return;
   bodies.pose[i].q.normalize();
-  const Quat moved = movedOrientation(bodies, i);
-  const Vec3 turn = unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
+  const Vec3 turn =
+      unwrapped(logarithm(bodies.pose[i].q * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
   if (!bodies.general && isIsotropic(bodies.inertia[i])) {
     bodies.velocity[i].w = turn / dt;  // bounded by pi/h, where the sum (45) is not; paper.md
   } else {

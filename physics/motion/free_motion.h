@@ -45,9 +45,6 @@ void finishVelocity(Bodies& bodies, BodyId body, double dt);
 // spin beyond pi/h for one the other way round.
 Vec3 unwrapped(const Vec3& turn, const Vec3& free);
 
-// The present orientation without what was only corrected.
-Quat movedOrientation(const Bodies& bodies, BodyId body);
-
 bool isIsotropic(const Vec3& inertia);
 
 // R I^-1 R^T at the present poses.

@@ -157,10 +157,7 @@ std::vector<Given> givenBy(const std::vector<Impact>& impacts, const Bodies& bod
 }
 
 // True where nothing but its contacts moved the body in this substep.
-bool isFree(const Bodies& bodies, BodyId body, const FreeFlight& flight) {
-  const Correction& correction = bodies.correction[body];
-  return !flight.attached[body] && correction.dx.isZero(0) && correction.dtheta.isZero(0);
-}
+bool isFree(BodyId body, const FreeFlight& flight) { return !flight.attached[body]; }
 
 // Takes back what the solve made of the normals' impulses: exactly where only contacts moved the
 // body, else to first order of its turn in the substep.
@@ -168,7 +165,7 @@ void undo(const Given& given, Bodies& bodies, BodyId body, const FreeFlight& fli
   if (bodies.motion[body] != Motion::kDynamic) return;
   Velocity& velocity = bodies.velocity[body];
   const InverseMass& inverse = bodies.inverse[body];
-  if (isFree(bodies, body, flight)) {
+  if (isFree(body, flight)) {
     velocity.v = flight.before[body].v + inverse.m / flight.dt * given.friction;
     velocity.w = flight.before[body].w + inverse.inertia * given.frictionTurn / flight.dt;
   } else {
@@ -230,7 +227,7 @@ int alone(const Impact& impact, const std::vector<Given>& given, const Bodies& b
   }
   for (const BodyId body : {pair.a, pair.b}) {
     const bool moves = bodies.motion[body] == Motion::kDynamic;
-    if (moves && (given[body].pairs > 1 || !isFree(bodies, body, flight))) return -1;
+    if (moves && (given[body].pairs > 1 || !isFree(body, flight))) return -1;
   }
   return any;
 }

@@ -34,8 +34,7 @@ void balance(Bodies& bodies, BodyId i) {
   const Quat from = bodies.start[i].q;
   const FreeTurn turn = turnWith(bodies, i, from, momentum, dt, isSymmetric ? 0.5 : 1);
   bodies.freeTurn[i] = dt * (from * turn.mean);
-  bodies.pose[i].q =
-      exponential(bodies.correction[i].dtheta) * exponential(bodies.freeTurn[i]) * from;
+  bodies.pose[i].q = exponential(bodies.freeTurn[i]) * from;
 }
 
 void moveByBdf2(Bodies& bodies, BodyId i, const Load& load, const Vec3& gravity) {
@@ -89,7 +88,6 @@ void begin(Bodies& bodies, BodyId i) {
     s.angularMomentum[i] = angularMomentum(bodies, i, bodies.velocity[i].w);
   }
   bodies.shift[i].setZero();
-  bodies.correction[i] = {};
 }
 
 void finishBdf2(Bodies& bodies, BodyId i) {
@@ -97,9 +95,8 @@ void finishBdf2(Bodies& bodies, BodyId i) {
   bodies.velocity[i].v += bodies.shift[i] / step;
   if (!turnsByTorque(bodies, i)) return;
   bodies.pose[i].q.normalize();
-  const Quat moved = movedOrientation(bodies, i);
-  bodies.velocity[i].w =
-      unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]) / step;
+  const Quat turned = bodies.pose[i].q * bodies.start[i].q.conjugate();
+  bodies.velocity[i].w = unwrapped(logarithm(turned), bodies.freeTurn[i]) / step;
 }
 
 void finishSymmetric(Bodies& bodies, BodyId i, const Load& load, const Vec3& gravity) {
@@ -173,9 +170,9 @@ void balance(Bodies& bodies, Scheme scheme) {
 
 Vec3 missingTwist(const Bodies& bodies, BodyId i) {
   const SecondOrder& s = bodies.second;
-  const Quat moved = movedOrientation(bodies, i);
-  const Vec3 psi = unwrapped(logarithm(moved * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
-  const Vec3 has = moved * bodies.inertia[i].cwiseProduct(moved.conjugate() * psi);
+  const Quat& q = bodies.pose[i].q;
+  const Vec3 psi = unwrapped(logarithm(q * bodies.start[i].q.conjugate()), bodies.freeTurn[i]);
+  const Vec3 has = q * bodies.inertia[i].cwiseProduct(q.conjugate() * psi);
   return s.step[i] * s.target[i] + s.twist[i] - has;
 }
 
@@ -197,11 +194,10 @@ void remember(Bodies& bodies, const std::vector<bool>& smooth) {
     if (bodies.motion[i] != Motion::kDynamic) continue;
     History& past = s.history[i];
     past.smooth = smooth[i];
-    past.dx = bodies.pose[i].x - bodies.correction[i].dx - s.origin[i].x;
+    past.dx = bodies.pose[i].x - s.origin[i].x;
     past.velocity = s.velocity[i].v;
     if (!turnsByTorque(bodies, i)) continue;
-    const Quat moved = movedOrientation(bodies, i);
-    past.dtheta = unwrapped(logarithm(moved * s.origin[i].q.conjugate()),
+    past.dtheta = unwrapped(logarithm(bodies.pose[i].q * s.origin[i].q.conjugate()),
                             0.5 * s.h * (s.velocity[i].w + bodies.velocity[i].w));
     past.angularMomentum = s.angularMomentum[i];
   }

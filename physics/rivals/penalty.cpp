@@ -27,7 +27,7 @@ void pushAll(RivalModel& world, double dt) {
     if (!stiff.at.row.active) return;
     total = stiff.f;
     for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-      const Correction step = displacementOf<C>(stiff.at.response, b, stiff.f);
+      const DeltaX step = displacementOf<C>(stiff.at.response, b, stiff.f);
       velocity[item.bodies[b]].v += step.dx / dt;
       velocity[item.bodies[b]].w += step.dtheta / dt;
     }
@@ -131,7 +131,7 @@ void assemble(RivalModel& world, double dt) {
 
 // Whether contacts stick, after a solve: the force it took against Coulomb's bound, and a slide
 // that would turn round has come to rest.
-void judgeFriction(RivalModel& world, const std::vector<Correction>& change) {
+void judgeFriction(RivalModel& world, const std::vector<DeltaX>& change) {
   for (StiffTouch& contact : world.penalty.touches) {
     const Vec3 before = followOf(contact, world.penalty.moved), more = followOf(contact, change);
     const Friction& friction = contact.touch.friction;
@@ -148,24 +148,21 @@ void judgeFriction(RivalModel& world, const std::vector<Correction>& change) {
   }
 }
 
-// One Newton step of backward Euler; the largest change of a displacement, or nothing where the
-// system broke down.
-std::optional<double> newtonStep(RivalModel& world, double dt) {
+// One Newton step of backward Euler. False: the system broke down.
+bool newtonStep(RivalModel& world, double dt) {
   PenaltySystem& s = world.penalty;
   assemble(world, dt);
   s.change.resize(world.bodies.pose.size());
-  if (!s.matrix.solve(s.change)) return std::nullopt;
-  double largest = 0;
-  std::vector<Correction>& change = s.step;
+  if (!s.matrix.solve(s.change)) return false;
+  std::vector<DeltaX>& change = s.step;
   change.resize(s.change.size());
   for (std::size_t i = 0; i < s.change.size(); ++i) {
     change[i] = {dt * s.change[i].v, dt * s.change[i].w};
-    largest = std::max({largest, change[i].dx.norm(), change[i].dtheta.norm()});
     world.bodies.velocity[i].v += s.change[i].v;
     world.bodies.velocity[i].w += s.change[i].w;
   }
   judgeFriction(world, change);
-  return largest;
+  return true;
 }
 
 // Who is named where the system broke down.
@@ -232,10 +229,8 @@ void penalty(RivalModel& world, double dt, StepReport& report) {
     advance(world.bodies, dt);
     const Configuration x{world.bodies.pose, world.bodies.start, dt};
     if (!takeSprings(world, x, scheme, k == 0, report)) return;
-    const std::optional<double> change = newtonStep(world, dt);
-    if (!change) return nameStiffest(world, report);
+    if (!newtonStep(world, dt)) return nameStiffest(world, report);
     ++report.iterations;
-    if (*change < world.settings.tolerance) break;
   }
   keepTotals(world);
   advance(world.bodies, dt);

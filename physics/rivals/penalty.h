@@ -51,11 +51,11 @@ struct StiffTouch {
 struct PenaltySystem {
   StiffRows<Kinds>::Type rows;
   std::vector<StiffTouch> touches;
-  std::vector<int> meeting;       // constraints and touches at each body
-  std::vector<Correction> moved;  // h v and h w of every body
-  std::vector<Velocity> free;     // v^t + h M^-1 f of what is not a spring
-  std::vector<Velocity> change;   // of one Newton step
-  std::vector<Correction> step;   // the same times h
+  std::vector<int> meeting;      // constraints and touches at each body
+  std::vector<DeltaX> moved;     // h v and h w of every body
+  std::vector<Velocity> free;    // v^t + h M^-1 f of what is not a spring
+  std::vector<Velocity> change;  // of one Newton step
+  std::vector<DeltaX> step;      // the same times h
   SparseMotion matrix;
 };
 

@@ -126,7 +126,7 @@ void rubImplicitly(double normal, const Vec2& follow, StiffTouch& contact) {
 }
 
 bool takeTouch(const PenaltyScheme& scheme, double share, double c, bool first, StiffTouch& contact,
-               const std::vector<Correction>& moved) {
+               const std::vector<DeltaX>& moved) {
   const Vec3 follow = followOf(contact, moved);
   Vec3 k, d;
   for (int i = 0; i < 3; ++i) {
@@ -196,10 +196,10 @@ PenaltyScheme schemeOf(const Settings& settings, bool implicit) {
 }
 
 // J (h v) of the three rows.
-Vec3 followOf(const StiffTouch& contact, const std::vector<Correction>& moved) {
+Vec3 followOf(const StiffTouch& contact, const std::vector<DeltaX>& moved) {
   Vec3 u = Vec3::Zero();
   for (int b = 0; b < contact.touch.count; ++b) {
-    const Correction& body = moved[contact.touch.bodies[b]];
+    const DeltaX& body = moved[contact.touch.bodies[b]];
     u += contact.touch.weight[b] * (body.dx + body.dtheta.cross(contact.touch.arm[b]));
   }
   return Vec3(u.dot(contact.rows[0].d), u.dot(contact.rows[1].d), u.dot(contact.rows[2].d));

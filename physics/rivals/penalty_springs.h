@@ -23,7 +23,7 @@ std::vector<StiffRow<C>>& stiffRowsOf(RivalModel& world) {
 void takeMoved(RivalModel& world, double dt);
 
 // J (h v) of the three rows of a touch.
-Vec3 followOf(const StiffTouch& contact, const std::vector<Correction>& moved);
+Vec3 followOf(const StiffTouch& contact, const std::vector<DeltaX>& moved);
 
 // Fills world.penalty.rows and .touches at x; `first` in a substep, no force of a contact is known
 // yet. False: something was not finite, and report.notFinite names it.

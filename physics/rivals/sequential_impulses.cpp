@@ -95,26 +95,26 @@ void freezeAll(RivalModel& world, double dt, Stage stage, StepReport& report) {
 
 template <class C>
 void give(const C& item, const Response<C>& response, const typename Set<C>::Vector& change,
-          std::vector<Correction>& moved) {
+          std::vector<DeltaX>& moved) {
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const Correction step = displacementOf<C>(response, b, change);
+    const DeltaX step = displacementOf<C>(response, b, change);
     moved[item.bodies[b]].dx += step.dx;
     moved[item.bodies[b]].dtheta += step.dtheta;
   }
 }
 
 void give(const ImpulseTouch& contact, const TouchRow& row, double change,
-          std::vector<Correction>& moved) {
+          std::vector<DeltaX>& moved) {
   for (int b = 0; b < contact.touch.count; ++b) {
     moved[contact.touch.bodies[b]].dx += change * row.linear[b];
     moved[contact.touch.bodies[b]].dtheta += change * row.turn[b];
   }
 }
 
-double alongRow(const Touch& touch, const TouchRow& row, const std::vector<Correction>& moved) {
+double alongRow(const Touch& touch, const TouchRow& row, const std::vector<DeltaX>& moved) {
   double sum = 0;
   for (int b = 0; b < touch.count; ++b) {
-    const Correction& body = moved[touch.bodies[b]];
+    const DeltaX& body = moved[touch.bodies[b]];
     sum += touch.weight[b] * row.d.dot(body.dx + body.dtheta.cross(touch.arm[b]));
   }
   return sum;
@@ -125,7 +125,7 @@ void warmStartRows(Set<C>& set, RivalModel& world) {
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     auto& [row, response] = rowsOf<C>(world)[k].at;
     typename Set<C>::Vector& total = set.lambda[k].total;
-    if (!world.settings.warmStart || !row.active) total.setZero();
+    if (!row.active) total.setZero();
     if (!total.isZero(0)) give(set.items[k], response, total, world.impulses.moved);
   }
 }
@@ -133,10 +133,6 @@ void warmStartRows(Set<C>& set, RivalModel& world) {
 void warmStart(RivalModel& world) {
   forEachKind(world.kinds, [&](auto& kind) { warmStartRows(kind.set, world); });
   for (ImpulseTouch& contact : world.impulses.touches) {
-    if (!world.settings.warmStart) {
-      *contact.normal = 0;
-      contact.friction->setZero();
-    }
     *contact.friction -= contact.friction->dot(contact.touch.n) * contact.touch.n;
     give(contact, contact.rows[0], *contact.normal, world.impulses.moved);
     for (int k = 1; k < 3; ++k) {
@@ -172,7 +168,7 @@ template <class K>
 bool sweepKind(K& kind, RivalModel& world, Softness soft, Stage stage, StepReport& report) {
   using C = typename K::Item;
   auto& set = kind.set;
-  std::vector<Correction>& moved = world.impulses.moved;
+  std::vector<DeltaX>& moved = world.impulses.moved;
   report.constraintEvaluations += static_cast<std::int64_t>(set.items.size());
   for (std::size_t k = 0; k < set.items.size(); ++k) {
     const auto& [row, response] = rowsOf<C>(world)[k].at;
@@ -199,7 +195,7 @@ bool sweepKind(K& kind, RivalModel& world, Softness soft, Stage stage, StepRepor
 }
 
 void sweepNormal(const ImpulseTouch& contact, const Stiffness& stiff, Stage stage, double fastest,
-                 std::vector<Correction>& moved) {
+                 std::vector<DeltaX>& moved) {
   const TouchRow& row = contact.rows[0];
   const double gap = contact.touch.gap;
   Softness soft;
@@ -214,7 +210,7 @@ void sweepNormal(const ImpulseTouch& contact, const Stiffness& stiff, Stage stag
 }
 
 // Both rows, and then Coulomb's bound on their sum (101).
-void sweepFriction(const ImpulseTouch& contact, std::vector<Correction>& moved) {
+void sweepFriction(const ImpulseTouch& contact, std::vector<DeltaX>& moved) {
   Vec3& total = *contact.friction;
   Vec2 before, next;
   for (int k = 0; k < 2; ++k) {
@@ -258,7 +254,7 @@ void takeMovedAndAhead(RivalModel& world, double dt) {
 void giveVelocities(RivalModel& world, double dt) {
   for (int i = 0; i < world.bodies.size(); ++i) {
     if (world.bodies.motion[i] != Motion::kDynamic) continue;
-    const Correction& moved = world.impulses.moved[i];
+    const DeltaX& moved = world.impulses.moved[i];
     world.bodies.velocity[i] = {moved.dx / dt, moved.dtheta / dt};
   }
 }

@@ -47,7 +47,7 @@ struct ImpulseTouch {
 struct ImpulseSystem {
   ImpulseRows<Kinds>::Type rows;
   std::vector<ImpulseTouch> touches;
-  std::vector<Correction> moved;  // h v and h w of every body
+  std::vector<DeltaX> moved;  // h v and h w of every body
 };
 
 }  // namespace physics

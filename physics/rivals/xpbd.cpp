@@ -73,7 +73,7 @@ bool project(Set<C>& set, std::size_t k, Scratch<C>& s, Bodies& bodies, double d
   const typename Set<C>::Vector next = nextTotal<C>(s.row, a, set.tuned[k], total);
   if (!next.allFinite()) return false;
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const Correction moved = displacementOf<C>(s.response, b, next - total);
+    const DeltaX moved = displacementOf<C>(s.response, b, next - total);
     Pose& pose = bodies.pose[item.bodies[b]];
     pose.x += moved.dx;
     if constexpr (isAngular<C>()) pose.q = turned(pose.q, moved.dtheta);

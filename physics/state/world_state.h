@@ -14,8 +14,6 @@ struct WorldState : RivalModel {
   SmallSteps small;                         // small steps only
   Stepper stepper;                          // second-order steppings only
   std::vector<ContactPair> contactsBefore;  // as the substep found them; second order only
-  std::vector<double> kineticBefore;        // of bodies at the start of the substep [J]; empty
-                                            // where energy needs no bound
   Local local;                              // local substeps only
   int turning = 0;                          // how many of the active bodies a torque can turn
   std::vector<Manifold> own;                // scratch: those found that are of what now steps

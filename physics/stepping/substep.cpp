@@ -3,7 +3,6 @@
 
 #include "physics/base/profile.h"
 #include "physics/effects/choose_scheme.h"
-#include "physics/effects/energy_bound.h"
 #include "physics/effects/skip_inactive.h"
 #include "physics/motion/restitution.h"
 #include "physics/motion/second_order.h"
@@ -11,11 +10,10 @@
 #include "physics/stepping/not_finite.h"
 #include "physics/sweep/direct.h"
 #include "physics/sweep/nonlinear_gauss_seidel.h"
+#include "physics/sweep/project.h"
 
 namespace physics {
 namespace {
-
-constexpr int kMostLooks = 4;  // how often contacts are looked for anew within one substep
 
 bool contactsOutdated(const WorldState& w) {
   return w.touches && w.collider.outdated(poseAtStart(w), w.bodies.pose, w.bodies.active);
@@ -39,7 +37,7 @@ bool lookForContacts(WorldState& w, int k, double h) {
   return findSoftContacts(w);
 }
 
-void solveOnce(WorldState& w, double h, StepReport& report) {
+void solveConstraints(WorldState& w, double h, StepReport& report) {
   switch (w.settings.method) {
     case Method::kNonlinearGaussSeidel:
     case Method::kSmallSteps:  // where it does not take what the world has
@@ -53,29 +51,9 @@ void solveOnce(WorldState& w, double h, StepReport& report) {
   }
 }
 
-// Contacts that pushed and may not be found again.
-void keepLost(Contacts& contacts) {
-  for (const ContactPair& pair : contacts.pairs) {
-    if (!pair.given.isZero(0)) contacts.lost.push_back(pair);
-  }
-}
-
-void solveConstraints(WorldState& w, double h, StepReport& report) {
-  solveOnce(w, h, report);
-  // A body that was hit may have left the bounds in which contacts were looked for: look where it
-  // went.
-  for (int look = 1; look < kMostLooks && !report.notFinite && contactsOutdated(w); ++look) {
-    keepLost(w.contacts);
-    if (!findContacts(w, w.bodies.pose)) return;
-    for (ContactPair& pair : w.contacts.pairs) measureStart(pair, w.bodies);
-    solveOnce(w, h, report);
-  }
-}
-
 // From X^t, v^t to the displaced poses, by the schemes as they stand.
 void displaceAll(WorldState& w, int k, double h, StepReport& report) {
   profileScope("motion");
-  w.contacts.lost.clear();
   if (isSecondOrder(w.settings)) {
     moveFreelySecondOrder(w.bodies, w.loads, w.settings.gravity, h);
   } else {
@@ -125,7 +103,6 @@ void finish(WorldState& w, double h, StepReport& report) {
     projectVelocities(w);
   } else {
     finishVelocities(w.bodies, h);  // (43)-(46)
-    report.bounded += boundEnergy(w, h);
   }
   std::vector<bool> jumped;
   if (restitution > 0) {
@@ -166,7 +143,6 @@ void substep(WorldState& w, int k, double h, StepReport& report) {
   const bool isStatic = w.settings.stepping == Stepping::kStatic;
   if (isStatic) bringToRest(w.bodies);
   if (isRival(w.settings.method)) return substepOfRival(w, k, h, report);
-  noteKineticEnergy(w);
   isSecondOrder(w.settings) ? displaceBySchemes(w, k, h, report) : displaceAll(w, k, h, report);
   if (!goesOn(w, report)) return;
   finish(w, h, report);

@@ -17,7 +17,7 @@ bool holds(const C& item, const Row<C::kBodies, C::kRows>& row, double lambda,
            const Bodies& bodies) {
   Response<C> response;
   const double a = effectiveMassInverse(item, row, bodies.inverse, response).trace();
-  if (!(a > 1e-300)) return false;
+  if (!(a > 0)) return false;
   const double wanted = lambda - row.c[0] / a;
   return row.high <= 0 ? wanted < 0 : wanted > 0;
 }
@@ -29,7 +29,6 @@ inline void release(JointRows& joint) {
     joint.angular[b].setZero();
   }
   joint.right.setZero();
-  joint.once.setZero();
   joint.error = 0;
 }
 

@@ -17,6 +17,10 @@ namespace {
 // NOTES 3.5
 constexpr double kRedundancy = 1e-12;
 
+// Second-order steppings: Newton goes on until no joint is further open, in the unit of its rows.
+constexpr double kClosed = 1e-9;
+constexpr int kMostSteps = 40;
+
 Scheme schemeOf(const Bodies& bodies, BodyId i) {
   return bodies.second.empty() ? Scheme::kPaper : bodies.second.scheme[i];
 }
@@ -25,18 +29,14 @@ Scheme schemeOf(const Bodies& bodies, BodyId i) {
 // displaces.
 template <class C>
 JointRows rowsOf(const C& item, const Bodies& bodies, double dt, Stage stage,
-                 const typename Set<C>::Vector& left, Row<C::kBodies, C::kRows>& row) {
+                 Row<C::kBodies, C::kRows>& row) {
   Configuration at = configurationOf(item, bodies, dt);
   item.evaluate(at, row);
-  row.c = withoutLeft(row.c, left);
   JointRows joint;
   joint.bodies = item.bodies;
   joint.rows = C::kRows;
   joint.isSymmetric = isSymmetric(item, bodies);
-  if (!joint.isSymmetric) {
-    joint.once.head(C::kRows) = -wrongPart(row, along(item, row, bodies.correction));
-  }
-  joint.right.head(C::kRows) = -row.c - joint.once.head(C::kRows);
+  joint.right.head(C::kRows) = -row.c;
   joint.error = row.c.norm();
   if (joint.isSymmetric && stage == Stage::kDisplacements) {
     at.now = bodies.start;
@@ -134,7 +134,7 @@ void gather(SweepModel& world, double dt, Stage stage) {
   forEachJoint(world, [&](auto& item, auto& lambda, auto&, std::size_t) {
     using C = std::decay_t<decltype(item)>;
     Row<C::kBodies, C::kRows> row;
-    JointRows joint = rowsOf(item, world.bodies, dt, stage, lambda.left, row);
+    JointRows joint = rowsOf(item, world.bodies, dt, stage, row);
     chooseActive(item, row, stage, world.bodies, lambda.total, joint);
     Vec3 total = Vec3::Zero();
     total.head(joint.rows) = lambda.total;
@@ -199,13 +199,12 @@ bool newtonStep(SweepModel& world, double dt) {
   }
   world.jointChange.assign(world.jointRows.size(), Vec3::Zero());
   if (!world.joints.factorize(world.jointRows)) return false;
-  world.joints.solve(world.jointRows, &JointRows::right, world.jointChange);
+  world.joints.solve(world.jointRows, world.jointChange);
   double sum = 0;
   for (const Vec3& change : world.jointChange) sum += change.sum();
   if (!std::isfinite(sum)) return false;
   world.jointError = world.bodies.second.empty() ? 0 : largestError(world);
   applyNewtonStep(world);
-  followCorrections(world);
   turnSymmetric(world);
   if (setChanges(world)) world.jointError = std::numeric_limits<double>::infinity();
   return true;
@@ -229,7 +228,7 @@ void projectJoints(SweepModel& world) {
     }
   }
   if (!world.joints.factorize(world.jointRows)) return;
-  world.joints.solve(world.jointRows, &JointRows::right, world.jointChange);
+  world.joints.solve(world.jointRows, world.jointChange);
   for (std::size_t k = 0; k < world.jointRows.size(); ++k) {
     const JointRows& joint = world.jointRows[k];
     if (!joint.isSymmetric) continue;
@@ -242,13 +241,14 @@ void projectJoints(SweepModel& world) {
 }
 
 void direct(SweepModel& world, double dt, StepReport& report) {
-  iterate(world, dt, report, [&] {
+  const int least = world.settings.iterations;
+  for (int k = 0; k < least || (k < kMostSteps && world.jointError > kClosed); ++k) {
+    if (k > 0) refreshIterate(world, dt);
     profileScope("direct");
     report.constraintEvaluations += static_cast<std::int64_t>(world.jointRows.size());
-    if (newtonStep(world, dt)) return true;
-    nameWorstJoint(world, report);
-    return false;
-  });
+    if (!newtonStep(world, dt)) return nameWorstJoint(world, report);
+    if (!sweep(world, dt, report)) return;
+  }
 }
 
 }  // namespace physics

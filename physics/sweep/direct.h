@@ -6,8 +6,7 @@
 //   (M + K) ddX - J^T dlambda = J^T lambda - M dX,   J ddX = -c
 // K is the geometric stiffness -d(J^T lambda)/dX, its part that stiffens: a link under tension
 // resists being turned. Without it Newton's steps overshoot as soon as the tension rings a link
-// faster than the step. What contacts have corrected is a right-hand side of its own, J ddX = -J dX
-// of the corrections: it moves bodies and gives them no speed.
+// faster than the step.
 #pragma once
 
 #include "physics/sweep/sweep_model.h"

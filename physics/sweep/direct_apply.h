@@ -8,7 +8,4 @@ namespace physics {
 // From SweepModel::jointChange, the change of every joint's multipliers.
 void applyNewtonStep(SweepModel& world);
 
-// By the same factor: what contacts have corrected is followed, without speed.
-void followCorrections(SweepModel& world);
-
 }  // namespace physics

@@ -116,11 +116,10 @@ bool JointSystem::factorize(std::span<const JointRows> joints) {
   return s.factor.info() == Eigen::Success;
 }
 
-void JointSystem::solve(std::span<const JointRows> joints, Vec3 JointRows::*right,
-                        std::span<Vec3> change) {
+void JointSystem::solve(std::span<const JointRows> joints, std::span<Vec3> change) {
   Impl& s = *impl_;
   for (const JointRows& joint : joints) {
-    s.right.segment(joint.first, joint.rows) = (joint.*right).head(joint.rows);
+    s.right.segment(joint.first, joint.rows) = joint.right.head(joint.rows);
   }
   s.solution = s.factor.solve(s.right);
   for (std::size_t k = 0; k < joints.size(); ++k) {

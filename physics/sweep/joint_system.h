@@ -24,7 +24,6 @@ struct JointRows {
   bool changes = false;                 // it held, and has been let go
   bool isSymmetric = false;             // J is that of the start of the step
   Vec3 right = Vec3::Zero();            // -(c + alpha lambda) + J M^-1 r, of the motion
-  Vec3 once = Vec3::Zero();             // -J dX of what contacts have corrected
   std::array<Mat3, 2> linear, angular;  // J, one row per constraint row
   std::array<Mat3, 2> responseLinear, responseAngular;  // (M + K)^-1 J^T, one column per row
 };
@@ -52,8 +51,8 @@ class JointSystem {
   // False when it breaks down.
   bool factorize(std::span<const JointRows> joints);
 
-  // Writes the change of every joint's multipliers, for that right-hand side, to `change`.
-  void solve(std::span<const JointRows> joints, Vec3 JointRows::*right, std::span<Vec3> change);
+  // Writes the change of every joint's multipliers to `change`.
+  void solve(std::span<const JointRows> joints, std::span<Vec3> change);
 
  private:
   struct Impl;

@@ -40,26 +40,22 @@ FrozenContact direction(const std::array<BodyId, 3>& bodies, const std::array<do
   return row;
 }
 
-// `gap` and `slip` at X^{t+1}; `depth` is the overlap at X^t that is left to later substeps.
+// `gap` and `slip` at X^{t+1}.
 FrozenPoint freezePoint(const std::array<BodyId, 3>& bodies, const std::array<double, 3>& weight,
-                        const std::array<Vec3, 3>& arm, const Vec3& n, double gap, double depth,
-                        const Vec3& slip, const Friction& friction, const Bodies& state) {
+                        const std::array<Vec3, 3>& arm, const Vec3& n, double gap, const Vec3& slip,
+                        const Friction& friction, const Bodies& state) {
   FrozenPoint point;
   point.friction = friction;
   const Vec3 t1 = anyNormalTo(n), t2 = n.cross(t1);
   point.rows = {direction(bodies, weight, arm, n, state), direction(bodies, weight, arm, t1, state),
                 direction(bodies, weight, arm, t2, state)};
-  point.rows[0].c = gap + depth;
+  point.rows[0].c = gap;
   point.rows[1].c = slip.dot(t1);
   point.rows[2].c = slip.dot(t2);
   return point;
 }
 
-double depthLeft(double gapAtStart, const SweepModel& world, double dt) {
-  return std::max(0.0, -gapAtStart - world.settings.contact->maxSeparationSpeed * dt);
-}
-
-void freezeContacts(SweepModel& world, double dt) {
+void freezeContacts(SweepModel& world) {
   const std::vector<Pose>& pose = world.bodies.pose;
   world.linear.points.clear();
   for (const ContactPair& pair : world.contacts.pairs) {
@@ -69,10 +65,10 @@ void freezeContacts(SweepModel& world, double dt) {
       const Vec3 at = pointOf(pair, k, pose);
       const Vec3 dp = (pose[pair.a].x + pose[pair.a].q * p.anchorA) -
                       (pose[pair.b].x + pose[pair.b].q * p.anchorB);
-      world.linear.points.push_back(freezePoint(
-          {pair.a, pair.b, kWorldBody}, {1, -1, 0},
-          {at - pose[pair.a].x, at - pose[pair.b].x, Vec3::Zero()}, n, gapOf(pair, k, pose),
-          depthLeft(p.gapAtStart, world, dt), dp, pair.friction, world.bodies));
+      world.linear.points.push_back(
+          freezePoint({pair.a, pair.b, kWorldBody}, {1, -1, 0},
+                      {at - pose[pair.a].x, at - pose[pair.b].x, Vec3::Zero()}, n,
+                      gapOf(pair, k, pose), dp, pair.friction, world.bodies));
     }
   }
   for (const SoftContact& c : world.softContacts) {
@@ -81,8 +77,7 @@ void freezeContacts(SweepModel& world, double dt) {
     const Vec3 dp = at - (b.x + b.q * c.anchor) - c.startSlip;
     world.linear.points.push_back(freezePoint({c.from, c.to, c.body}, {1 - c.along, c.along, -1},
                                               {Vec3::Zero(), Vec3::Zero(), at - c.radius * n - b.x},
-                                              n, gapOf(c, pose), depthLeft(c.gapAtStart, world, dt),
-                                              dp, c.friction, world.bodies));
+                                              n, gapOf(c, pose), dp, c.friction, world.bodies));
   }
 }
 
@@ -98,7 +93,7 @@ void move(const FrozenContact& row, double change, SweepModel& world) {
 double errorOf(const FrozenContact& row, const SweepModel& world) {
   double c = row.c;
   for (int b = 0; b < 3; ++b) {
-    const Correction& moved = world.linear.moved[row.bodies[b]];
+    const DeltaX& moved = world.linear.moved[row.bodies[b]];
     c += row.linear[b].dot(moved.dx) + row.angular[b].dot(moved.dtheta);
   }
   return c;
@@ -106,14 +101,14 @@ double errorOf(const FrozenContact& row, const SweepModel& world) {
 
 void sweepPoint(FrozenPoint& point, double xi, SweepModel& world) {
   FrozenContact& normal = point.rows[0];
-  if (!(normal.resistance > 1e-300)) return;
+  if (!(normal.resistance > 0)) return;
   const double next = std::max(normal.total - xi * errorOf(normal, world) / normal.resistance, 0.0);
   move(normal, next - normal.total, world);
   normal.total = next;
   Vec2 friction, before;
   for (int k = 0; k < 2; ++k) {
     const FrozenContact& row = point.rows[k + 1];
-    if (!(row.resistance > 1e-300)) return;
+    if (!(row.resistance > 0)) return;
     before[k] = row.total;
     friction[k] = row.total - xi * errorOf(row, world) / row.resistance;
   }
@@ -126,11 +121,10 @@ void sweepPoint(FrozenPoint& point, double xi, SweepModel& world) {
 
 // The first row whose multiplier would not be finite; rows.size(): none.
 template <class C>
-std::size_t sweepRows(Set<C>& set, std::vector<FrozenRow<C>>& rows,
-                      std::vector<Correction>& moved) {
+std::size_t sweepRows(Set<C>& set, std::vector<FrozenRow<C>>& rows, std::vector<DeltaX>& moved) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     auto& [row, response] = rows[k].at;
-    if (!row.active || !(rows[k].a.trace() > 1e-300)) continue;
+    if (!row.active || !(rows[k].a.trace() > 0)) continue;
     const C& item = set.items[k];
     typename Set<C>::Vector& total = set.lambda[k].total;
     const typename Set<C>::Vector follow = along(item, row, moved);
@@ -144,7 +138,7 @@ std::size_t sweepRows(Set<C>& set, std::vector<FrozenRow<C>>& rows,
     }
     if (!next.allFinite()) return k;
     for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-      const Correction step = displacementOf<C>(response, b, next - total);
+      const DeltaX step = displacementOf<C>(response, b, next - total);
       moved[item.bodies[b]].dx += step.dx;
       moved[item.bodies[b]].dtheta += step.dtheta;
     }
@@ -189,8 +183,8 @@ void linearGaussSeidel(SweepModel& world, double dt, StepReport& report) {
     freeze(kind.set, world.bodies, dt, rowsOf<C>(world));
     visits += static_cast<std::int64_t>(kind.set.items.size());
   });
-  freezeContacts(world, dt);
-  world.linear.moved.assign(world.bodies.pose.size(), Correction{});
+  freezeContacts(world);
+  world.linear.moved.assign(world.bodies.pose.size(), DeltaX{});
   for (int k = 0; k < world.settings.iterations; ++k) {
     if (!sweepKinds(world, report)) return;
     for (FrozenPoint& point : world.linear.points) {

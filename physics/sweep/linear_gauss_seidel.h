@@ -41,7 +41,7 @@ struct FrozenPoint {
 struct LinearSystem {
   FrozenRows<Kinds>::Type rows;
   std::vector<FrozenPoint> points;
-  std::vector<Correction> moved;  // by body, the displacement so far
+  std::vector<DeltaX> moved;  // by body, the displacement so far
 };
 
 }  // namespace physics

@@ -2,15 +2,13 @@
 #pragma once
 
 #include "physics/model/model.h"
-#include "physics/sweep/conjugate.h"
 #include "physics/sweep/joint_system.h"
 #include "physics/sweep/linear_gauss_seidel.h"
 
 namespace physics {
 
 struct SweepModel : Model {
-  Conjugate conjugate;  // scratch
-  JointSystem joints;   // this and its scratch: the direct method only
+  JointSystem joints;  // this and its scratch: the direct method only
   std::vector<JointRows> jointRows;
   std::vector<Vec3> jointChange;
   std::vector<JointMotion> jointMotion;

@@ -12,7 +12,6 @@ void checkSettings(const Settings& s) {
   require(std::isfinite(s.dt) && s.dt > 0, "dt must be a positive number of seconds");
   require(s.substeps >= 1, "substeps must be at least 1");
   require(s.iterations >= 1, "iterations must be at least 1");
-  require(s.maxIterations >= 0 && s.tolerance >= 0, "iterations and tolerance must be >= 0");
   require(s.relaxation > 0 && s.relaxation < 2, "relaxation must lie between 0 and 2");
   require(s.regularisation >= 0 && std::isfinite(s.regularisation), "regularisation must be >= 0");
   require(!s.maxCorrectionSpeed || *s.maxCorrectionSpeed > 0, "max_correction_speed must be > 0");
@@ -96,7 +95,6 @@ BodyId World::add(const BodyDef& def) {
   b.mass.push_back(dynamic ? def.mass : 0);
   b.motion.push_back(def.motion);
   b.shift.push_back(Vec3::Zero());
-  b.correction.emplace_back();
   b.freeTurn.push_back(Vec3::Zero());
   b.shape.push_back(def.shape);
   b.friction.push_back(friction);

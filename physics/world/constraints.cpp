@@ -43,8 +43,6 @@ int append(WorldState& w, const D& def, const C& item) {
       kind.set.lambda.emplace_back();
       kind.set.tuned.push_back({def.tuning.relaxation.value_or(w.settings.relaxation),
                                 def.tuning.regularisation.value_or(w.settings.regularisation),
-                                w.settings.warmStartJoints && canStand<C>(),
-                                w.settings.contact && canStand<C>(),
                                 w.settings.regularisationForm == Regularisation::kDamping});
       index = static_cast<int>(kind.set.items.size()) - 1;
     }

@@ -13,8 +13,8 @@ std::size_t bytesOf(const std::vector<bool>& list) { return list.capacity() / 8;
 std::size_t bytesOf(const Bodies& b) {
   return bytesOf(b.pose) + bytesOf(b.start) + bytesOf(b.velocity) + bytesOf(b.inverse) +
          bytesOf(b.inverseInertia) + bytesOf(b.inertia) + bytesOf(b.mass) + bytesOf(b.motion) +
-         bytesOf(b.shift) + bytesOf(b.correction) + bytesOf(b.freeTurn) + bytesOf(b.shape) +
-         bytesOf(b.friction) + bytesOf(b.isSoft) + bytesOf(b.active);
+         bytesOf(b.shift) + bytesOf(b.freeTurn) + bytesOf(b.shape) + bytesOf(b.friction) +
+         bytesOf(b.isSoft) + bytesOf(b.active);
 }
 
 std::size_t bytesOf(const SecondOrder& s) {
@@ -28,9 +28,7 @@ std::size_t bytesOf(const Stepper& s) {
          bytesOf(s.unresolved) + bytesOf(s.bounded) + bytesOf(s.tried) + bytesOf(s.ratio);
 }
 
-std::size_t bytesOf(const Contacts& c) {
-  return bytesOf(c.pairs) + bytesOf(c.previous) + bytesOf(c.lost);
-}
+std::size_t bytesOf(const Contacts& c) { return bytesOf(c.pairs) + bytesOf(c.previous); }
 
 std::size_t bytesOf(const Sleep& s) {
   return bytesOf(s.still) + bytesOf(s.asleep) + bytesOf(s.island) + bytesOf(s.called) +
@@ -76,8 +74,7 @@ std::vector<EffectMemory> World::memory() const {
   };
   add("gyroscopic", bytesOf(w.bodies.anisotropic));
   add("contact", w.collider.bytes() + bytesOf(w.contacts) + w.softCollider.bytes() +
-                     bytesOf(w.softContacts) + w.conjugate.bytes() + w.small.bytes() +
-                     bytesOf(w.attached) + bytesOf(w.kineticBefore));
+                     bytesOf(w.softContacts) + w.small.bytes() + bytesOf(w.attached));
   add("restitution", bytesOf(w.velocityBefore));
   add("stepping", bytesOf(w.bodies.second) + bytesOf(w.stepper) + bytesOf(w.contactsBefore));
   add("direct", bytesOf(w.jointRows) + bytesOf(w.jointChange) + bytesOf(w.jointMotion));

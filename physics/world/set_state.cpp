@@ -81,7 +81,6 @@ bool World::setState(std::span<const Pose> poses, std::span<const Velocity> velo
     b.pose[i] = poses[i];
     if (poses[i].q.squaredNorm() != 1) b.pose[i].q.normalize();
     b.velocity[i] = velocities[i];
-    b.correction[i] = {};
     b.shift[i].setZero();
     b.freeTurn[i].setZero();
     forgetPast(b.second, i);

@@ -52,7 +52,7 @@ void step(benchmark::State& state, const std::string& simulation, const std::str
 
 const std::string kSweeps = "method = \"nonlinear_gauss_seidel\"\n";
 const std::string kResting = "substeps = 2\niterations = 1\n";
-const std::string kFalling = "substeps = 4\niterations = 1\nmax_iterations = 4\n";
+const std::string kFalling = "substeps = 4\niterations = 1\n";
 
 std::string pyramid() { return kWorld + "[[pyramid]]\nname = \"p\"\nbase = 20\nmass = 1\n"; }
 std::string tower(int count) {
@@ -108,8 +108,7 @@ BENCHMARK_CAPTURE(step, chain20_gauss_seidel, kSweeps + "substeps = 20\niteratio
 BENCHMARK_CAPTURE(step, chain100_direct, "substeps = 1\niterations = 3\nmethod = \"direct\"\n",
                   chain(100, 1), 0)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(step, ragdolls100, "substeps = 8\niterations = 1\nmax_iterations = 2\n",
-                  ragdolls(), 0)
+BENCHMARK_CAPTURE(step, ragdolls100, "substeps = 8\niterations = 1\n", ragdolls(), 0)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(120);
 BENCHMARK_CAPTURE(step, boxes10000_awake, kFalling, boxes(100, ""), 60)

@@ -16,7 +16,6 @@ constexpr int kMostStepped = 300, kMostSeen = 3000;  // bodies
 void cutShort(physics::Settings& settings) {
   settings.substeps = std::min(settings.substeps, kMostSubsteps);
   settings.iterations = std::min(settings.iterations, kMostSweeps);
-  settings.maxIterations = std::min(settings.maxIterations, kMostSweeps);
 }
 
 void look(const scenes::Simulation& simulation) {

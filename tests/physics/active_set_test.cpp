@@ -13,7 +13,6 @@ Settings directSettings(Stepping stepping) {
   Settings settings;
   settings.substeps = 1;
   settings.iterations = 20;
-  settings.maxIterations = 100;
   settings.method = Method::kDirect;
   settings.stepping = stepping;
   settings.gravity = Vec3(0, -9.81, 0);

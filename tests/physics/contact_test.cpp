@@ -9,7 +9,6 @@ TEST(Contact, ABlockAtRestStaysWithinANanometreForTenSeconds) {
   world.add(box({0.6, 0.4, 0.5}));
   runFor(world, 10);
   EXPECT_LT((place(world) - Vec3(0, 0.2, 0)).norm(), 1e-9);
-  // The first sweeps end at Settings::tolerance and leave a turn, measured 2e-9 rad; it stays.
   EXPECT_LT(logarithm(world.bodies().pose[kBody].q).norm(), 5e-9);
 }
 

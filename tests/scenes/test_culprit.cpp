@@ -76,12 +76,11 @@ TEST(Culprit, OfAVolumeErrorIsTheWorstTetrahedron) {
 }
 
 TEST(Culprit, OfAnOverlapIsTheDeepestContact) {
-  const auto verdict = verdictOf(
-      "duration = 0.1\n[simulation]\nmethod = \"nonlinear_gauss_seidel\"\n"
-      "[contact]\nfriction = 0.5\n[[body]]\nname = \"a\"\n" +
-      kSphere + "[[body]]\nname = \"b\"\nposition = [0.9, 0, 0]\n" + kSphere +
-      "[[body]]\nname = \"c\"\nposition = [1.5, 0, 0]\n" + kSphere +
-      "[[expect]]\nmetric = \"overlap\"\nat_most = 0.01\n");
+  const auto verdict =
+      verdictOf("duration = 0.1\n[contact]\nfriction = 0.5\n[[body]]\nname = \"a\"\n" + kSphere +
+                "[[body]]\nname = \"b\"\nposition = [0.9, 0, 0]\n" + kSphere +
+                "[[body]]\nname = \"c\"\nposition = [1.5, 0, 0]\n" + kSphere +
+                "[[expect]]\nmetric = \"overlap\"\nat_most = 0.01\n");
   ASSERT_TRUE(verdict.failure);
   EXPECT_EQ(verdict.failure->constraint, "contact");
   EXPECT_EQ(verdict.failure->bodies, "b, c");

@@ -63,17 +63,18 @@ TEST(StabilityCase, HasTheSettingsOfItsFamily) {
   const StabilityFamily family = familyOf("direct");
   const Value* substeps = findValue(family.settings, "simulation.substeps");
   ASSERT_NE(substeps, nullptr);
-  const Value* most = findValue(family.settings, "simulation.max_iterations");
-  ASSERT_NE(most, nullptr);
+  const Value* sweeps = findValue(family.settings, "simulation.iterations");
+  ASSERT_NE(sweeps, nullptr);
   const Scene scene =
       caseSceneOf("duration = 1\n[stability]\nfamily = \"direct\"\nabout = \"a\"\n" + kBody);
   EXPECT_EQ(scene.settings.substeps, substeps->integer);
   EXPECT_EQ(scene.settings.method, physics::Method::kDirect);
-  EXPECT_EQ(scene.settings.maxIterations, most->integer);
+  EXPECT_EQ(scene.settings.iterations, sweeps->integer);
 }
 
 TEST(StabilityCase, AtTheDefaultSaysFramesPerSecondAlone) {
-  for (const char* name : {"chains", "stacks", "heaps", "impacts", "ragdolls", "arms"}) {
+  for (const char* name : {"chains", "stacks", "heaps", "impacts", "ragdolls", "springs", "soft",
+                           "arms", "large_steps"}) {
     const StabilityFamily family = familyOf(name);
     ASSERT_EQ(family.settings.members.size(), 1u) << name;
     const Value& simulation = family.settings.members[0].value;

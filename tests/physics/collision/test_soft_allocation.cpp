@@ -14,7 +14,6 @@ Settings settings() {
   Settings s = sweeps();
   s.substeps = 2;
   s.iterations = 2;
-  s.maxIterations = 0;
   s.gravity = Vec3(0, -9.81, 0);
   s.contact.emplace();
   return s;
