@@ -33,6 +33,8 @@ void readSimulation(TableReader& reader, Scene& scene) {
   reader(Field{"fps", Unit::kNone, false, 1, 1e6}, scene.fps);
   reader(Field{"substeps", Unit::kNone, false, 1, 1e6}, settings.substeps);
   reader(Field{"iterations", Unit::kNone, false, 1, 1e6}, settings.iterations);
+  reader(Field{"max_iterations", Unit::kNone, false, 0, 1e6}, settings.maxIterations);
+  reader(Field{"tolerance", Unit::kMetre, false, 0}, settings.tolerance);
   reader(Field{"penalty_stiffness", Unit::kNone, false, 1e-6, 1e12}, settings.penaltyStiffness);
   reader(Field{"relaxation", Unit::kNone, false, 0.01, 1.99}, settings.relaxation);
   reader(Field{"regularisation", Unit::kNone, false, 0, 1e6}, settings.regularisation);

@@ -46,6 +46,8 @@ struct Settings {
   double dt = 1.0 / 60;  // one step() [s]
   int substeps = 4;
   int iterations = 1;  // sweeps over all constraints per substep, N of Algorithm 1
+  std::optional<double> tolerance;  // more of them, while one still moves a body by more [m]
+  int maxIterations = 40;           // and no more than these
   Method method = Method::kSmallSteps;
   Stepping stepping = Stepping::kPaper;
   double relaxation = 1;      // xi (53)
@@ -53,6 +55,7 @@ struct Settings {
   Regularisation regularisationForm = Regularisation::kCompliance;
   bool spinInertia = false;                  // M~ of (36),(65) instead of M, where |w| h <= 0.2
   bool refreshInertia = true;                // inertia follows the turn of every iteration (4.1)
+  bool warmStartJoints = false;              // of earlier versions: lambda = 0 in Algorithm 1
   std::optional<double> maxCorrectionSpeed;  // small steps: a joint's error at X^t is taken back no
                                              // faster [m/s, rad/s]; absent: in one substep
   std::optional<double> penaltyStiffness;    // kappa of the penalty methods; absent: their own

@@ -2,6 +2,7 @@
 #include "physics/sweep/nonlinear_gauss_seidel.h"
 
 #include <algorithm>
+#include <span>
 
 #include "physics/base/profile.h"
 #include "physics/constraints/constraint_symmetric.h"
@@ -77,6 +78,12 @@ bool sweepSoftContacts(SweepModel& world, StepReport& report) {
   return true;
 }
 
+double furthest(std::span<const Pose> from, std::span<const Pose> to) {
+  double most = 0;
+  for (std::size_t i = 0; i < to.size(); ++i) most = std::max(most, (to[i].x - from[i].x).norm());
+  return most;
+}
+
 }  // namespace
 
 void refreshInverseMasses(SweepModel& world, double dt) {
@@ -106,10 +113,18 @@ void refreshIterate(SweepModel& world, double dt) {
 }
 
 void nonlinearGaussSeidel(SweepModel& world, double dt, StepReport& report) {
-  for (int k = 0; k < world.settings.iterations; ++k) {
+  const Settings& settings = world.settings;
+  double moved = 0;
+  const auto goesOn = [&](int k) {
+    if (k < settings.iterations) return true;
+    return settings.tolerance && k < settings.maxIterations && moved > *settings.tolerance;
+  };
+  for (int k = 0; goesOn(k); ++k) {
     if (k > 0) balance(world.bodies);
     if (k > 0) refreshIterate(world, dt);
+    if (settings.tolerance) world.iterate = world.bodies.pose;
     if (!sweep(world, dt, report)) return;
+    if (settings.tolerance) moved = furthest(world.iterate, world.bodies.pose);
   }
 }
 

@@ -15,6 +15,7 @@ struct SweepModel : Model {
   double jointError = 0;  // largest that the last Newton step met [m or rad]; infinite while its
                           // active set changes
   LinearSystem linear;    // the linear method only
+  std::vector<Pose> iterate;  // before the last sweep, where a tolerance is given
 };
 
 }  // namespace physics

@@ -133,6 +133,34 @@ TEST(Relaxation, OfOnePointThreeNeedsFewerSweepsThanOne) {
   EXPECT_GT(sweepsTo(1.95), sweepsTo(1));
 }
 
+// Two links that pull one point: each sweep of a solve moves it by less than the one before.
+TEST(Tolerance, SweepsUntilNoneMovesABodyFurther) {
+  const auto sweepsOf = [](std::optional<double> tolerance, int most) {
+    Settings settings = sweeps(2);
+    settings.substeps = 1;
+    settings.tolerance = tolerance;
+    settings.maxIterations = most;
+    World world(settings);
+    BodyDef pin, node;
+    pin.motion = Motion::kStatic;
+    node.pose.x = Vec3(0, -0.25, 0);
+    const BodyId point = world.add(node);
+    for (const double x : {-0.98, 0.98}) {
+      pin.pose.x = Vec3(x, 0, 0);
+      LinkDef link;
+      link.length = 1;
+      link.bodies = {world.add(pin), point};
+      world.add(link);
+    }
+    return world.step().iterations;
+  };
+  EXPECT_EQ(sweepsOf(std::nullopt, 100), 2);
+  EXPECT_EQ(sweepsOf(1e-6, 7), 7);
+  EXPECT_GT(sweepsOf(1e-3, 1000), 2);
+  EXPECT_GT(sweepsOf(1e-6, 1000), sweepsOf(1e-3, 1000));
+  EXPECT_LT(sweepsOf(1e-6, 1000), 1000);
+}
+
 TEST(GradientError, FindsEveryGradientRight) {
   Settings settings;
   settings.gravity = Vec3(0, -9.81, 0);
