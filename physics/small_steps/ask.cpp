@@ -11,6 +11,10 @@ namespace {
 // what the two move past each other in a step, whose end is known no better than that, but never by
 // a larger share of the body than meshes.
 constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 0.1;
+// Of what the springs are drawn by at rest nothing shows, but a column of n bodies that stand on
+// springs buckles under its own weight where the lowest gives way by 2 a / n^2 (7.84 EI = q L^3): a
+// tenth of that, n/2 being how often the contacts carry the weight of an island.
+constexpr double kLargestDrawn = 0.1;
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 constexpr double kLargestTurn =
     0.05;  // rad, of what is solved at once: its rows are taken as straight
@@ -39,16 +43,24 @@ double smallSag(const Bodies& b, const KeptContact& c, double size, double dt) {
 
 }  // namespace
 
+// What the sag of an island is to be, as a share of what is small.
+double SmallSteps::Impl::sagOf(BodyId root) const {
+  const double column = weight[root] > 0 ? carried[root] / weight[root] : 0;
+  const double small = std::max(kLargestSag, kLargestDrawn / std::max(column * column, 1.0));
+  return (sag[root] + drawn[root] * kLargestSag / small) / load[root];
+}
+
 // The energy of islands, by their first body, that a sweep may change a share of.
 void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch, double h) {
   const Bodies& b = w.bodies;
   const double g2 = w.settings.gravity ? w.settings.gravity->squaredNorm() : 0;
   for (const BodyId i : batch.bodies) {
-    energy[i] = change[i] = load[i] = sag[i] = 0;
+    energy[i] = change[i] = load[i] = sag[i] = drawn[i] = carried[i] = weight[i] = 0;
   }
   for (const BodyId i : batch.bodies) {
     if (b.motion[i] != Motion::kDynamic) continue;
     energy[islands[i]] += b.mass[i] * (g2 * h * h * h * h + moved[i].u.squaredNorm());
+    weight[islands[i]] += b.mass[i] * std::sqrt(g2) * h * h;
   }
 }
 
@@ -71,8 +83,12 @@ void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch) {
         const double inverse = block.point[k].inverse[l];
         const double lambda = std::min(c.lambda[k], c.before[k]);
         if (!(inverse > 0)) continue;
+        const double held = std::min<double>(lambda, block.held[k][l]);
+        const double share = lambda * soft / inverse / size;
         load[root] += lambda * small / size;
-        sag[root] += lambda * soft * lambda / inverse / size;
+        sag[root] += share * (lambda - held);
+        drawn[root] += share * held;
+        carried[root] += lambda;
       }
     }
   }
@@ -148,7 +164,7 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {
-      want(i, substepsFor(batch.substeps, sag[root] / load[root]), SubstepLaw::kSag);
+      want(i, substepsFor(batch.substeps, sagOf(root)), SubstepLaw::kSag);
     }
     const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;

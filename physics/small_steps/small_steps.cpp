@@ -64,6 +64,9 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   meanSpins.resize(bodies, Vec3::Zero());
   load.resize(bodies);
   sag.resize(bodies);
+  drawn.resize(bodies);
+  carried.resize(bodies);
+  weight.resize(bodies);
   energy.resize(bodies);
   held.resize(bodies);
   change.resize(bodies);

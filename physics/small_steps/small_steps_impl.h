@@ -122,6 +122,7 @@ struct SmallSteps::Impl {
   enum class Held : char { kNot, kJoined, kTouching };  // by joints or points; by contacts
   std::vector<Held> held;                               // of an island, by its first body
   std::vector<double> load, sag, energy, change;        // by body (island: by its first)
+  std::vector<double> drawn, carried, weight;           // the same
 
   void learn(Model& w);
   void makeRoom(std::size_t bodies);
@@ -185,6 +186,7 @@ struct SmallSteps::Impl {
   void renewTurned(Model& w, Batch& batch);
   void takeOver(Model& w, Batch& batch, double h);
   void takeOver(const ContactBlock& block, double h);
+  double sagOf(BodyId root) const;
   void weighMotion(const Model& w, const Batch& batch, double h);
   void weighContacts(const Model& w, const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
