@@ -12,8 +12,9 @@ namespace {
 // a larger share of the body than meshes.
 constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 0.1;
 // Of what the springs are drawn by at rest nothing shows, but a column of n bodies that stand on
-// springs buckles under its own weight where the lowest gives way by 2 a / n^2 (7.84 EI = q L^3): a
-// tenth of that, n/2 being how often the contacts carry the weight of an island.
+// springs buckles under its own weight where the lowest gives way by 2 a / n^2 (7.84 EI = q L^3). On
+// the average of the load that is 0.38 of a cube's radius over (n/2)^2, n/2 being how often the
+// contacts carry the weight of an island: a quarter of it.
 constexpr double kLargestDrawn = 0.1;
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 constexpr double kLargestTurn =
@@ -54,13 +55,14 @@ double SmallSteps::Impl::sagOf(BodyId root) const {
 void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch, double h) {
   const Bodies& b = w.bodies;
   const double g2 = w.settings.gravity ? w.settings.gravity->squaredNorm() : 0;
+  const double fall = std::sqrt(g2) * h * h;
   for (const BodyId i : batch.bodies) {
     energy[i] = change[i] = load[i] = sag[i] = drawn[i] = carried[i] = weight[i] = 0;
   }
   for (const BodyId i : batch.bodies) {
     if (b.motion[i] != Motion::kDynamic) continue;
     energy[islands[i]] += b.mass[i] * (g2 * h * h * h * h + moved[i].u.squaredNorm());
-    weight[islands[i]] += b.mass[i] * std::sqrt(g2) * h * h;
+    weight[islands[i]] += b.mass[i] * fall;
   }
 }
 

@@ -39,7 +39,7 @@ struct JointResponse {
   }
   void makeRoom() {
     masses.resize(size());
-    entries.assign(size() * size() * 6 * kColumn, 0.f);
+    entries.resize(size() * size() * 6 * kColumn);
   }
   float* block(std::size_t to, std::size_t from) {
     return entries.data() + (from * size() + to) * 6 * kColumn;

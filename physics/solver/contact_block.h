@@ -9,7 +9,7 @@
 // A contact gives way as the spring and damper of (117)-(124), as stiff as the substep resolves:
 //   position   c > 0:  dlambda = -(J u + c) / A
 //              else    dlambda = -(s J u + r c) / A - (1 - s) lambda
-//                      r = min(s b, push / depth of the deepest), s b of what it is drawn by at rest
+//                      r = min(s b, push / depth of the deepest), s b for what it is drawn by
 //   velocity           dlambda = -(J u + max(c, 0)) / A, and friction on the disc of (96)-(101)
 // with the total projected on lambda >= 0. What is deep is taken back by the same share at all
 // points of a manifold, so that it does not tilt on its way out. c is counted from where the spring
