@@ -6,10 +6,21 @@
 // (github.com/marzer/tomlplusplus/pull/301).
 #undef TOML_ASSERT_ASSUME
 #define TOML_ASSERT_ASSUME(expression) static_assert(true)
+// Deciding whether a letter beyond ASCII is white space, toml++ 3.3 calls it unreachable that it is
+// none, as in a letter behind a line that ends in a backslash: it is.
+#undef TOML_UNREACHABLE
+#define TOML_UNREACHABLE return false
+// clang-format off: this order
+#include <toml++/impl/forward_declarations.h>
+#include <toml++/impl/unicode.h>
+// clang-format on
+#undef TOML_UNREACHABLE
+#define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 #include "scenes/value.h"
 
@@ -110,9 +121,44 @@ void checkKeys(const std::string& text, const std::string& path) {
   }
 }
 
+// How many bytes a letter takes that begins with these, 0 where they are no UTF-8: a stray or
+// missing continuation, a longer form than needed, half of a UTF-16 pair, or past U+10FFFF.
+std::size_t lengthOfLetter(std::string_view bytes) {
+  const auto at = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const unsigned first = at(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || bytes.size() < length) return 0;
+  unsigned code = first & (0xff >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((at(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (at(i) & 0x3f);
+  }
+  constexpr unsigned kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool isHalf = code >= 0xd800 && code < 0xe000;
+  return code < kLeast[length] || code > 0x10ffff || isHalf ? 0 : length;
+}
+
+// A column is a letter, as toml++ counts.
+void checkLetters(const std::string& text, const std::string& path) {
+  int line = 1, column = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = lengthOfLetter(std::string_view(text).substr(i));
+    if (length == 0) {
+      throw InputError(fmt::format("{}:{}:{}: expected UTF-8, got the byte {:#04x}", path, line,
+                                   column, static_cast<unsigned char>(text[i])));
+    }
+    const bool ends = text[i] == '\n';
+    line += ends ? 1 : 0;
+    column = ends ? 1 : column + 1;
+    i += length;
+  }
+}
+
 }  // namespace
 
 Value parseToml(const std::string& text, const std::string& path) {
+  checkLetters(text, path);
   checkKeys(text, path);
   try {
     return convert(toml::parse(text, path));
