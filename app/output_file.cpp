@@ -29,6 +29,7 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)), standardOutput_(
   if (path_.has_parent_path()) makeFolder(path_.parent_path());
   renamed_ = !isInPlace(path_);
   written_ = renamed_ ? fs::path(path_.string() + kPartial) : path_;
+  if (renamed_) half_.emplace(written_.string());
   file_ = std::fopen(written_.c_str(), "wb");
   if (file_ == nullptr) fail(errno);
 }

@@ -3,8 +3,11 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "app/interrupt.h"
 
 namespace app {
 
@@ -27,6 +30,7 @@ class OutputFile {
   std::filesystem::path path_, written_;
   std::FILE* file_ = nullptr;
   bool standardOutput_ = false, renamed_ = false;
+  std::optional<RemovedOnInterrupt> half_;
 };
 
 void writeFile(const std::filesystem::path& path, std::string_view bytes);

@@ -2,6 +2,7 @@
 // bytes of a run that nobody disturbed.
 #include <signal.h>
 
+#include <chrono>
 #include <random>
 
 #include "program.h"
@@ -115,6 +116,26 @@ TEST_F(Signals, FiguresThatWereStoppedEndInTheSameBytes) {
     EXPECT_EQ(readBytes(folder / "whole" / file), readBytes(folder / "stopped" / file)) << file;
   }
   expectNothingHalf("stopped");
+}
+
+// Frames of minutes: the program cannot ask between them whether a signal came.
+TEST_F(Signals, ALongFrameEndsWithinASecond) {
+  const std::string slow =
+      " drop.toml --quiet --set simulation.method=xpbd --set simulation.substeps=1000000"
+      " --set simulation.iterations=1000 -o long ";
+  for (const char* command : {"simulate --trajectory t.csv", "render --size 160x90", "check"}) {
+    for (const char* signal : {"INT", "TERM"}) {
+      const auto begin = std::chrono::steady_clock::now();
+      const Outcome outcome =
+          run(command + slow,
+              std::string("timeout --foreground --preserve-status -k 20 -s ") + signal + " 1");
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+      EXPECT_EQ(outcome.code, 130) << command << outcome.errors;
+      EXPECT_LT(took.count(), 2.0 + 0.5) << command;  // a second until it is sent; a busy machine
+      EXPECT_NE(outcome.errors.find("interrupted"), std::string::npos) << outcome.errors;
+      EXPECT_FALSE(fs::exists(folder / "t.csv.part"));
+    }
+  }
 }
 
 // The camera fits the whole motion: a picture from half of it would be another one.
