@@ -11,10 +11,10 @@ class FrameFolder {
 
   const std::filesystem::path& path() const { return folder_; }
   std::filesystem::path file(int frame) const;
-  bool has(int frame) const;
-  bool empty() const;
-  void clear() const;            // removes every frame
-  void removeLeftovers() const;  // what a killed run had half written
+  bool has(int frame, int width, int height) const;  // whole: a PNG of that size, to its end
+  int count() const;                                 // of numbered frames, whole or not
+  void clear() const;                                // removes every frame
+  void removeLeftovers() const;                      // what a killed run had half written
 
  private:
   std::filesystem::path folder_;

@@ -166,7 +166,6 @@ ExitCode renderScene(const RenderOptions& options) {
   const RenderJob job = makeJob(options, scene);
   if (options.video) requireFfmpeg();
   RenderResult result = renderFrames(scene, job);
-  if (!result.remark.empty()) note(fmt::format("dbd: {}: {}\n", scene.name, result.remark));
   if (result.end.code == ExitCode::kDone && options.video) makeVideo(scene, job, result);
   if (result.end.code == ExitCode::kInterrupted) {
     note("dbd: interrupted; the same command goes on where it stopped\n");
@@ -208,9 +207,12 @@ void addRender(CLI::App& line, Action& action) {
   addScene(*command, options->common);
   command->add_flag("--video", options->video, "Also make DIR/NAME.mp4");
   addPictureOptions(*command, *options);
-  CLI::Option* resume = command->add_flag("--resume", options->resume,
-                                          "Keep the frames of an earlier, same run (the default)");
-  command->add_flag("--fresh", options->fresh, "Draw every frame again")->excludes(resume);
+  CLI::Option* resume = command->add_flag(
+      "--resume", options->resume,
+      "Keep the frames of an earlier, same run; refuse those of another (the default)");
+  command
+      ->add_flag("--fresh", options->fresh, "Delete the frames that are there and draw all again")
+      ->excludes(resume);
   addCommon(*command, options->common);
   addHash(*command, options->common);
   command->callback([options, &action] { action = [options] { return renderScene(*options); }; });

@@ -23,27 +23,39 @@ render::Renderer::Info rendererInfo() {
   return openRenderer({kSide, kSide, render::Quality::kDraft, ""})->info();
 }
 
-// Takes over what an earlier run of the same inputs knows; otherwise empties the folder.
+// Frames that cost somebody hours are not ours to delete.
+[[noreturn]] void refuse(const FrameFolder& frames, const std::string& why) {
+  const int count = frames.count();
+  throw scenes::InputError(
+      fmt::format("{} holds {} frame{}: {}\nNothing was deleted. --fresh deletes them and draws "
+                  "all again; -o DIR draws elsewhere.",
+                  frames.path().string(), count, count == 1 ? "" : "s", why));
+}
+
+// Takes over what an earlier run of the same inputs knows.
 void openFolder(const FrameFolder& frames, const RenderJob& job, RenderResult& result) {
   const std::optional<RunRecord> earlier = readRecord(job.folder);
-  if (!job.fresh && earlier && earlier->sameFrames(result.record)) {
-    result.record = *earlier;
-  } else {
-    if (!job.fresh && !frames.empty()) {
-      result.remark =
-          earlier ? "the scene, its settings or the program changed: every frame is drawn again"
-                  : "no run.json tells what the frames show: every frame is drawn again";
-    }
+  if (job.fresh) {
     frames.clear();
+  } else if (earlier && earlier->sameFrames(result.record)) {
+    result.record = *earlier;
+  } else if (frames.count() > 0) {
+    if (!earlier) refuse(frames, "no readable run.json tells what they show.");
+    refuse(frames, fmt::format("of a run that differs in (was -> would be)\n  {}",
+                               fmt::join(differencesOf(*earlier, result.record), "\n  ")));
   }
   frames.removeLeftovers();
+}
+
+bool isDrawn(const FrameFolder& frames, const RenderJob& job, int frame) {
+  return frames.has(frame, job.renderer.width, job.renderer.height);
 }
 
 bool isComplete(const FrameFolder& frames, const RenderJob& job, const RunRecord& record) {
   const bool recorded =
       record.finished && job.frames.back() < static_cast<int>(record.stateHashes.size());
   return recorded && std::all_of(job.frames.begin(), job.frames.end(), [&](int frame) {
-           return !record.stateHashes[frame].empty() && frames.has(frame);
+           return !record.stateHashes[frame].empty() && isDrawn(frames, job, frame);
          });
 }
 
@@ -92,12 +104,13 @@ class Drawing {
     const int frame = simulation_.frame();
     const bool same = agreesWithRecord(frame, result.record);
     const bool wanted = std::binary_search(job_.frames.begin(), job_.frames.end(), frame);
-    if (!same) {
-      removeFile(frames_.file(frame));
-      result.remark = "states differ from the earlier run (did an asset change?): use --fresh";
+    if (!same && frames_.count() > 0) {
+      refuse(frames_, fmt::format("of a run whose states differ from frame {} on, though scene, "
+                                  "settings and program are the same (did an asset change?).",
+                                  frame));
     }
     if (!wanted) return;
-    if (same && frames_.has(frame)) {
+    if (isDrawn(frames_, job_, frame)) {
       ++result.kept;
       progress_.advance();
       return;

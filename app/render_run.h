@@ -26,12 +26,12 @@ struct RenderResult {
   PlayEnd end;
   RunRecord record;
   int drawn = 0, kept = 0;  // frames
-  std::string remark;       // why frames of an earlier run were dropped; empty: they were not
 };
 
 // Frames that the folder holds already are kept when run.json says that the same program drew them
 // from the same scene with the same settings; the scene is simulated again, which gives the same
-// states.
+// states. Throws InputError, and leaves the folder as it is, where it holds frames of another run
+// and `fresh` is not asked for.
 RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job);
 
 // The bounds of the whole motion, where the camera of the scene wants them.

@@ -19,11 +19,23 @@ run() {
   [ "$code" = 0 ] || failed+=("$what (exit code $code)")
 }
 
+# render SCENE ARGUMENT...: out/ is this script's own, so frames of an earlier program or of other
+# options make way.
+render() {
+  local scene=$1 code=0
+  shift
+  local command=(render "$scene" --video -o "$root/out/scenes/$scene" "$@")
+  "$root/build/dbd" "${command[@]}" || code=$?
+  [ "$code" = 130 ] && exit 130
+  [ "$code" = 2 ] && { run "$scene" "${command[@]}" --fresh; return; }
+  [ "$code" = 0 ] || failed+=("$scene (exit code $code)")
+}
+
 install_packages
 build "$root/build" dbd
 for i in "${!scenes[@]}"; do
   say "Scene $((i + 1)) of ${#scenes[@]}: ${scenes[$i]}"
-  run "${scenes[$i]}" render "${scenes[$i]}" --video -o "$root/out/scenes/${scenes[$i]}" "$@"
+  render "${scenes[$i]}" "$@"
 done
 say "What accuracy costs in time: the quick study"
 run "accuracy study" study accuracy --quick -o "$root/out/study"

@@ -33,6 +33,8 @@ RunRecord makeRecord(const scenes::Scene& scene);
 Json describePicture(const render::RendererOptions& options, const render::Renderer::Info& info,
                      bool hud, const scenes::Overlays& overlays);
 Json describeVerdicts(const std::vector<scenes::Checker::Verdict>& verdicts);
+// "--size, width: 640 -> 1280": what sameFrames() goes by.
+std::vector<std::string> differencesOf(const RunRecord& was, const RunRecord& is);
 std::string hexadecimal(std::uint64_t hash);
 
 // Absent or unreadable: nullopt, and the folder is treated as new.

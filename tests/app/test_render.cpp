@@ -73,27 +73,94 @@ TEST_F(Render, AnInterruptedRunSaysSoAndGoesOn) {
 
 TEST_F(Render, OnlyMissingFramesAreDrawnAgain) {
   ASSERT_EQ(run(kSmall + std::string("-o run")).code, 0);
-  writeText(folder / "run" / "frames" / "00003.png", "kept as it is");
+  const std::string frame = readBytes(folder / "run" / "frames" / "00003.png");
+  const std::string other = readBytes(folder / "run" / "frames" / "00009.png");
+  writeText(folder / "run" / "frames" / "00003.png", other);
   fs::remove(folder / "run" / "frames" / "00004.png");
   ASSERT_EQ(run(kSmall + std::string("-o run")).code, 0);
-  EXPECT_EQ(readBytes(folder / "run" / "frames" / "00003.png"), "kept as it is");
+  EXPECT_EQ(readBytes(folder / "run" / "frames" / "00003.png"), other);  // whole, so kept
   EXPECT_TRUE(fs::exists(folder / "run" / "frames" / "00004.png"));
   ASSERT_EQ(run(kSmall + std::string("-o run --fresh")).code, 0);
-  EXPECT_NE(readBytes(folder / "run" / "frames" / "00003.png"), "kept as it is");
+  EXPECT_EQ(readBytes(folder / "run" / "frames" / "00003.png"), frame);
 }
 
-TEST_F(Render, AChangedSceneOrPictureIsDrawnAnew) {
-  ASSERT_EQ(run(kSmall + std::string("-o run --frames 0:3")).code, 0);
-  const std::string ends = " -o run --frames 0:3";
-  for (const std::string& changed :
-       {kSmall + std::string("--set body.ball.position=[0,0.7,0]"), kOdd + std::string(),
-        kOdd + std::string("--hud"), kOdd + std::string("--overlays masses")}) {
-    const std::string before = readBytes(folder / "run" / "frames" / "00001.png");
-    const Outcome outcome = run(changed + ends);
-    ASSERT_EQ(outcome.code, 0) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("drawn again"), std::string::npos) << changed;
-    EXPECT_NE(readBytes(folder / "run" / "frames" / "00001.png"), before) << changed;
+TEST_F(Render, AFrameThatIsNotWholeIsDrawnAgain) {
+  ASSERT_EQ(run(kSmall + std::string("-o run")).code, 0);
+  const auto whole = folderBytes(folder / "run" / "frames");
+  const std::string frame = whole[3].second;
+  ASSERT_EQ(run(kOdd + std::string("-o odd --frames 3")).code, 0);
+  const std::string size = readBytes(folder / "odd" / "frames" / "00003.png");
+  for (const std::string& damaged :
+       {std::string(), frame.substr(0, 100), frame.substr(0, frame.size() - 1), frame + "x", size,
+        frame.substr(0, 60) + std::string(frame.size() - 60, '\0'),
+        std::string("version https://git-lfs.github.com/spec/v1\n")}) {
+    writeText(folder / "run" / "frames" / "00003.png", damaged);
+    ASSERT_EQ(run(kSmall + std::string("-o run")).code, 0);
+    EXPECT_EQ(folderBytes(folder / "run" / "frames"), whole) << damaged.size();
   }
+}
+
+TEST_F(Render, FramesOfAnotherRunAreKeptUntilFreshIsAskedFor) {
+  ASSERT_EQ(run(kSmall + std::string("-o run --frames 0:3")).code, 0);
+  const auto frames = folderBytes(folder / "run" / "frames");
+  const std::string record = readBytes(folder / "run" / "run.json");
+  const struct {
+    std::string options, told;
+  } changes[] = {
+      {"--quality draft --size 161x91", "--size, width: 160 -> 161"},
+      {"--quality standard --size 160x90", "--quality: \"draft\" -> \"standard\""},
+      {"--quality draft --size 160x90 --hud", "--hud: false -> true"},
+      {"--quality draft --size 160x90 --overlays masses", "--overlays: [] -> [\"masses\"]"},
+      {"--quality draft --size 160x90 --set simulation.substeps=3", "settings.substeps: "},
+      {"--quality draft --size 160x90 --set body.ball.position=[0,0.7,0]",
+       "--set: [] -> [\"body.ball.position=[0,0.7,0]\"]"},
+  };
+  for (const auto& change : changes) {
+    const Outcome refused =
+        run("render drop.toml --quiet " + change.options + " -o run --frames 0:5");
+    EXPECT_EQ(refused.code, 2) << change.options;
+    for (const char* told : {change.told.c_str(), "holds 3 frames", "--fresh deletes"}) {
+      EXPECT_NE(refused.errors.find(told), std::string::npos) << refused.errors;
+    }
+    EXPECT_EQ(folderBytes(folder / "run" / "frames"), frames) << change.options;
+    EXPECT_EQ(readBytes(folder / "run" / "run.json"), record) << change.options;
+  }
+  ASSERT_EQ(run(kOdd + std::string("-o run --frames 0:2 --fresh")).code, 0);
+  const auto fresh = folderBytes(folder / "run" / "frames");
+  ASSERT_EQ(fresh.size(), 2u);
+  EXPECT_NE(fresh[0].second, frames[0].second);
+}
+
+TEST_F(Render, FramesThatNoRecordTellsOfAreKept) {
+  ASSERT_EQ(run(kSmall + std::string("-o run --frames 0:3")).code, 0);
+  fs::remove(folder / "run" / "run.json");
+  const auto frames = folderBytes(folder / "run" / "frames");
+  const Outcome refused = run(kSmall + std::string("-o run --frames 0:3"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.errors.find("no readable run.json"), std::string::npos) << refused.errors;
+  EXPECT_EQ(folderBytes(folder / "run" / "frames"), frames);
+}
+
+// The scene names the asset, whose text is not in the scene's.
+TEST_F(Render, FramesOfAnAssetThatChangedAreKept) {
+  const auto writeMesh = [this](const char* top) {
+    writeText(folder / "tip.obj", std::string("v 0 0 0\nv 1 0 0\nv 0 0 1\nv ") + top +
+                                      "\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+  };
+  writeMesh("0 1 0");
+  writeText(folder / "tip.toml", readBytes(folder / "drop.toml") +
+                                     "[[body]]\nname = \"tip\"\nmass = 1\nposition = [3, 2, 0]\n"
+                                     "shape = { convex = { mesh = \"./tip.obj\" } }\n");
+  const std::string command = "render tip.toml --quiet --quality draft --size 160x90 -o run ";
+  const Outcome first = run(command + "--frames 0:9");
+  ASSERT_EQ(first.code, 0) << first.errors;
+  const auto frames = folderBytes(folder / "run" / "frames");
+  writeMesh("0 2 0");
+  const Outcome refused = run(command);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.errors.find("did an asset change?"), std::string::npos) << refused.errors;
+  EXPECT_EQ(folderBytes(folder / "run" / "frames"), frames);
+  EXPECT_EQ(run(command + "--fresh").code, 0);
 }
 
 TEST_F(Render, SimulateInTheSameFolderLeavesTheFramesGood) {
