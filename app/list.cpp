@@ -70,8 +70,7 @@ auto readAll(const std::vector<std::string>& names, Read read, std::string& firs
 ExitCode list(const ListOptions& options) {
   std::string firstError;
   const auto library = readAll(
-      scenes::libraryScenes(), [](const std::string& name) { return scenes::readScene(name); },
-      firstError);
+      wholeLibrary(), [](const std::string& name) { return scenes::readScene(name); }, firstError);
   const auto figures = readAll(
       scenes::figureSheets(), [](const std::string& path) { return scenes::readFigureSheet(path); },
       firstError);

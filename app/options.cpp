@@ -29,6 +29,12 @@ ProgressMode CommonOptions::progressMode() const {
   return quiet ? ProgressMode::kNone : mode;
 }
 
+std::vector<std::string> wholeLibrary() {
+  std::vector<std::string> names = scenes::libraryScenes();
+  if (names.empty()) throw scenes::InputError(scenes::nothingIn(scenes::libraryFolder()));
+  return names;
+}
+
 void addScene(CLI::App& command, CommonOptions& options) {
   command.add_option("SCENE", options.scene, "A scene of the library (dbd list) or a .toml file")
       ->required();

@@ -33,6 +33,9 @@ struct CommonOptions {
   ProgressMode progressMode() const;
 };
 
+// Every scene of the library; throws InputError where there is none.
+std::vector<std::string> wholeLibrary();
+
 void addScene(CLI::App& command, CommonOptions& options);
 // -o --threads --progress --quiet; `folder` says what -o is without being given.
 void addOutput(CLI::App& command, CommonOptions& options, const std::string& folder = "out/NAME");

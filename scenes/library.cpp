@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "scenes/figure_sheet.h"
+#include "scenes/recipe.h"
 #include "scenes/value.h"
 
 namespace scenes {
@@ -53,8 +54,9 @@ std::string pathOf(const std::string& scene) {
   }
   const fs::path path = fs::path(libraryFolder()) / (scene + ".toml");
   if (fs::is_regular_file(path, error)) return path.string();
-  throw InputError(
-      fmt::format("no scene '{}' in the library{}", scene, didYouMean(scene, libraryScenes())));
+  const std::vector<std::string> known = libraryScenes();
+  if (known.empty()) throw InputError(nothingIn(libraryFolder()));
+  throw InputError(fmt::format("no scene '{}' in the library{}", scene, didYouMean(scene, known)));
 }
 
 // "3", "03", "figure03", "axle" and "03_axle" all name 03_axle.toml.
@@ -75,6 +77,14 @@ std::string shippedSheet(const std::string& figure) {
 
 }  // namespace
 
+std::string nothingIn(const std::string& folder) {
+  const char* given = std::getenv("DBD_HOME");
+  const bool isSet = given != nullptr && *given != '\0';
+  return fmt::format(
+      "no .toml file in {}; DBD_HOME ({}) names the folder that holds scenes/ and assets/", folder,
+      isSet ? given : "not set");
+}
+
 std::string libraryFolder() { return (home() / "scenes" / "library").string(); }
 std::string assetFolder() { return (home() / "assets").string(); }
 
@@ -90,7 +100,12 @@ std::vector<std::string> libraryScenes() {
 
 Scene readScene(const std::string& scene, std::span<const std::string> overrides) {
   const std::string path = pathOf(scene);
-  return parseScene(readText(path, "scene"), path, overrides);
+  Scene read = parseScene(readText(path, "scene"), path, overrides);
+  if (read.content->steps.empty()) {
+    throw InputError(
+        fmt::format("{}: expected at least one [[body]], or a generator of bodies", path));
+  }
+  return read;
 }
 
 std::vector<std::string> figureSheets() {

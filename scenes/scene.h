@@ -90,4 +90,7 @@ std::vector<std::string> libraryScenes();  // names, sorted
 std::string libraryFolder();
 std::string assetFolder();
 
+// What to say where a folder of shipped files holds none.
+std::string nothingIn(const std::string& folder);
+
 }  // namespace scenes

@@ -38,6 +38,7 @@ std::vector<std::string> studyFiles(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(fs::path(studyFolder()) / folder, error)) {
     if (entry.path().extension() == ".toml") paths.push_back(entry.path().string());
   }
+  if (paths.empty()) throw InputError(nothingIn((fs::path(studyFolder()) / folder).string()));
   std::sort(paths.begin(), paths.end());
   return paths;
 }

@@ -12,7 +12,7 @@ std::string referenceFolder();  // tests/reference
 // The whole file. Throws InputError where it cannot be read.
 std::string readStudyText(const std::string& path);
 
-// *.toml of a folder in scenes/studies, sorted.
+// *.toml of a folder in scenes/studies, sorted. Throws InputError where there is none.
 std::vector<std::string> studyFiles(const std::string& folder);
 
 // The path of `study`, which is a name in that folder of scenes/studies or a path itself.
