@@ -21,34 +21,47 @@ struct CheckOptions {
 };
 
 std::string verdictTable(const scenes::Scene& scene,
-                         const std::vector<scenes::Checker::Verdict>& verdicts) {
-  std::string table;
+                         const std::vector<scenes::Checker::Verdict>& verdicts,
+                         const PlayEnd& end) {
+  std::string table, stopped;
+  if (end.frames < scene.frameCount()) {
+    stopped =
+        fmt::format("; the run stopped at frame {} of {}", end.frames - 1, scene.frameCount() - 1);
+  }
   for (const scenes::Checker::Verdict& verdict : verdicts) {
     table +=
         fmt::format("{:<5} {:<18} {}", verdict.holds ? "ok" : "FAIL", scene.name, verdict.text);
-    table += fmt::format("  (at {:.4g} s; {}:{})\n", verdict.atTime,
+    table += fmt::format("  (at {:.4g} s; {}:{}{})\n", verdict.atTime,
                          std::filesystem::path(scene.path).filename().string(),
-                         verdict.expectation.line);
+                         verdict.expectation.line, stopped);
   }
   if (verdicts.empty()) table = fmt::format("none  {:<18} states no expectation\n", scene.name);
   return table;
 }
 
-ExitCode checkScene(const CheckOptions& options, const std::string& name) {
+// What a run of one scene came to, and of how many expectations.
+struct Checked {
+  ExitCode code = ExitCode::kDone;
+  std::size_t expectations = 0;
+};
+
+Checked checkScene(const CheckOptions& options, const std::string& name) {
   const scenes::Scene scene = scenes::readScene(name, options.common.overrides);
   scenes::Simulation simulation(scene);
   scenes::Checker checker(scene);
   Progress progress(options.common.progressMode(), scene.name, "checking", scene.frameCount());
   RunRecord record = makeRecord(scene);
+  noteWarnings(record);
   const PlayEnd end = play(simulation, scene.frameCount(), [&](double) {
     checker.observe(simulation);
     record.stateHashes.push_back(hexadecimal(simulation.stateHash()));
     progress.advance();
   });
-  if (end.code == ExitCode::kInterrupted) return end.code;
+  if (end.code == ExitCode::kInterrupted) return {end.code, 0};
   progress.finish();
+  if (!simulation.isFinite()) checker.observe(simulation);  // `finite` does not hold
   const std::vector<scenes::Checker::Verdict> verdicts = checker.verdicts();
-  if (!options.common.quiet) say(verdictTable(scene, verdicts));
+  if (!options.common.quiet) say(verdictTable(scene, verdicts, end));
   if (!end.problem.empty()) note("dbd: " + end.problem + "\n");
   if (options.common.hash) say(record.stateHashes.back() + "\n");
   if (!options.common.folder.empty()) {
@@ -59,19 +72,22 @@ ExitCode checkScene(const CheckOptions& options, const std::string& name) {
   flushOutput();
   const bool holds = std::all_of(verdicts.begin(), verdicts.end(),
                                  [](const auto& verdict) { return verdict.holds; });
-  return holds ? end.code : ExitCode::kCheckFailed;
+  return {holds ? end.code : ExitCode::kCheckFailed, verdicts.size()};
 }
 
 ExitCode check(const CheckOptions& options) {
-  const std::vector<std::string> names = options.all ? scenes::libraryScenes() : options.scenes;
+  const std::vector<std::string> names = options.all ? wholeLibrary() : options.scenes;
   if (names.empty()) throw scenes::InputError("check: name a scene, or --all");
-  ExitCode worst = ExitCode::kDone;
+  Checked all;
   for (const std::string& name : names) {
-    const ExitCode code = checkScene(options, name);
-    if (code == ExitCode::kInterrupted) return code;
-    if (code != ExitCode::kDone) worst = code;
+    const Checked one = checkScene(options, name);
+    if (one.code == ExitCode::kInterrupted) return one.code;
+    if (one.code != ExitCode::kDone) all.code = one.code;
+    all.expectations += one.expectations;
   }
-  return worst;
+  if (all.expectations == 0)
+    throw CheckFailed("check: nothing was checked, there is no [[expect]]");
+  return all.code;
 }
 
 }  // namespace

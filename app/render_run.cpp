@@ -166,6 +166,7 @@ scenes::MotionBounds findBounds(const scenes::Scene& scene, int frames, Progress
 RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job) {
   RenderResult result;
   result.record = makeRecord(scene);
+  noteWarnings(result.record);
   result.record.picture =
       describePicture(job.renderer, rendererInfo(), job.view.hud, job.view.overlays);
   const FrameFolder frames(job.folder);

@@ -6,7 +6,9 @@
 #include <fstream>
 
 #include "app/build_info.h"
+#include "app/console.h"
 #include "app/output_file.h"
+#include "scenes/start_warnings.h"
 
 namespace app {
 
@@ -70,7 +72,14 @@ RunRecord makeRecord(const scenes::Scene& scene) {
                   {"overrides", scene.overrides},
                   {"effects", scene.effects}};
   record.settings = describeSettings(scene);
+  record.warnings = scenes::startWarnings(scene);
   return record;
+}
+
+void noteWarnings(const RunRecord& record) {
+  for (const std::string& warning : record.warnings) {
+    note(fmt::format("dbd: warning: {}: {}\n", record.scene.value("name", ""), warning));
+  }
 }
 
 Json describePicture(const render::RendererOptions& options, const render::Renderer::Info& info,
@@ -101,6 +110,8 @@ Json describeVerdicts(const std::vector<scenes::Checker::Verdict>& verdicts) {
                     {"body", verdict.expectation.body},
                     {"value", verdict.value},
                     {"at_time", verdict.atTime},
+                    {"least", verdict.least},
+                    {"most", verdict.most},
                     {"holds", verdict.holds},
                     {"text", verdict.text}});
   }
@@ -123,6 +134,7 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
     record.expectations = json.at("expectations");
     record.seconds = json.at("seconds");
     record.video = json.at("video");
+    record.warnings = json.value("warnings", record.warnings);
     record.finished = json.at("finished").get<bool>();
     return record;
   } catch (const Json::exception&) {
@@ -131,10 +143,15 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
 }
 
 void writeRecord(const RunRecord& record, const std::filesystem::path& folder) {
-  const Json json = {{"program", record.program},         {"scene", record.scene},
-                     {"settings", record.settings},       {"picture", record.picture},
-                     {"finished", record.finished},       {"video", record.video},
-                     {"seconds", record.seconds},         {"expectations", record.expectations},
+  const Json json = {{"program", record.program},
+                     {"scene", record.scene},
+                     {"settings", record.settings},
+                     {"picture", record.picture},
+                     {"finished", record.finished},
+                     {"warnings", record.warnings},
+                     {"video", record.video},
+                     {"seconds", record.seconds},
+                     {"expectations", record.expectations},
                      {"state_hashes", record.stateHashes}};
   constexpr int kIndent = 1;
   writeFile(folder / kFile, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -22,6 +22,7 @@ struct RunRecord {
   Json expectations = Json::array();     // verdicts, once the whole run was simulated
   Json seconds = Json::object();         // per stage; runs of the same inputs add up
   Json video;                            // the film and its frames; null: none
+  std::vector<std::string> warnings;     // scenes/start_warnings.h
   bool finished = false;                 // all that was asked for is written
 
   void addSeconds(const std::string& stage, double more);
@@ -30,6 +31,7 @@ struct RunRecord {
 };
 
 RunRecord makeRecord(const scenes::Scene& scene);
+void noteWarnings(const RunRecord& record);  // on stderr
 Json describePicture(const render::RendererOptions& options, const render::Renderer::Info& info,
                      bool hud, const scenes::Overlays& overlays);
 Json describeVerdicts(const std::vector<scenes::Checker::Verdict>& verdicts);

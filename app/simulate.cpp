@@ -45,9 +45,8 @@ PlayEnd playAndRecord(scenes::Simulation& simulation, scenes::Checker& checker, 
 }
 
 // Frames that an earlier render left in the folder stay good when the states are the same.
-void writeRunRecord(const scenes::Scene& scene, const Recording& recording, const PlayEnd& end,
+void writeRunRecord(RunRecord record, const Recording& recording, const PlayEnd& end,
                     const scenes::Checker& checker, const std::filesystem::path& folder) {
-  RunRecord record = makeRecord(scene);
   const std::optional<RunRecord> earlier = readRecord(folder);
   if (earlier && earlier->sameStates(record) && !earlier->picture.is_null()) record = *earlier;
   record.stateHashes = recording.hashes;
@@ -90,6 +89,8 @@ ExitCode simulate(const SimulateOptions& options) {
   }
   const ProgressMode progressMode = options.common.progressMode();
   const scenes::Scene scene = options.common.readScene();
+  const RunRecord record = makeRecord(scene);
+  noteWarnings(record);
   scenes::Simulation simulation(scene);
   simulation.setThreads(options.common.threadCount());
   const std::filesystem::path folder = options.common.outputFolder(scene.name);
@@ -112,7 +113,7 @@ ExitCode simulate(const SimulateOptions& options) {
   if (metrics) metrics->write(metricsTable(recording.metrics, recording.seconds));
   if (trajectory) trajectory->commit();
   if (metrics) metrics->commit();
-  writeRunRecord(scene, recording, end, checker, folder);
+  writeRunRecord(record, recording, end, checker, folder);
   tell(options, scene, recording);
   if (!end.problem.empty()) note("dbd: " + end.problem + "\n");
   return end.code;

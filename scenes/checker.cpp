@@ -59,6 +59,32 @@ std::string withUnit(double value, const char* unit) {
   return *unit == '\0' ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} {}", value, unit);
 }
 
+// A share of the energy reads better in percent.
+std::string amount(double value, const Metric& metric) {
+  if (!metric.isEnergyChange || *metric.unit != '\0') return withUnit(value, metric.unit);
+  return value == 0 ? "0" : fmt::format("{:.3g} %", 100 * value);
+}
+
+// The value that decides, or from a loss to a gain, of which a bound on one side says nothing of
+// the other.
+std::string valueText(const Checker::Verdict& verdict, const Metric& metric) {
+  if (!metric.isEnergyChange) return amount(verdict.value, metric);
+  return amount(verdict.least, metric) + " ... " + amount(verdict.most, metric);
+}
+
+std::string boundText(const Checker::Verdict& verdict, const Metric& metric) {
+  const Expectation& wanted = verdict.expectation;
+  if (metric.isEnergyChange && wanted.atMost && wanted.atLeast) {
+    return fmt::format(">= {} and <= {}", amount(*wanted.atLeast, metric),
+                       amount(*wanted.atMost, metric));
+  }
+  const std::string text =
+      fmt::format("{} {}", verdict.atMost ? "<=" : ">=", amount(verdict.bound, metric));
+  if (!metric.isEnergyChange) return text;
+  return text + (verdict.atMost ? " (no gain; it says nothing of a loss)"
+                                : " (no further loss; it says nothing of a gain)");
+}
+
 Checker::Verdict judge(const Watch& watch) {
   Checker::Verdict verdict;
   const Expectation& wanted = watch.expectation;
@@ -71,18 +97,18 @@ Checker::Verdict judge(const Watch& watch) {
   verdict.seen = e.seen;
   verdict.holds = e.seen && !tooMuch && !tooLittle;
   verdict.atMost = upper;
+  verdict.least = e.seen ? e.least : 0;
+  verdict.most = e.seen ? e.most : 0;
   verdict.bound = upper ? wanted.atMost.value_or(0) : *wanted.atLeast;
   verdict.value = upper ? e.most : e.least;
   verdict.atTime = upper ? e.mostTime : e.leastTime;
-  const char* unit = watch.metric->unit;
   const std::string of = wanted.body.empty() ? "" : " of " + wanted.body;
   if (!e.seen) {
     verdict.text = fmt::format("{}{}: no frame in its span", wanted.metric, of);
     return verdict;
   }
-  verdict.text = fmt::format("{}{} {}{} {} {}", wanted.metric, of, withUnit(verdict.value, unit),
-                             verdict.holds ? "" : ", expected",
-                             upper ? "<=" : ">=", withUnit(verdict.bound, unit));
+  verdict.text = fmt::format("{}{} {}{} {}", wanted.metric, of, valueText(verdict, *watch.metric),
+                             verdict.holds ? "" : ", expected", boundText(verdict, *watch.metric));
   return verdict;
 }
 

@@ -38,6 +38,7 @@ struct Metric {
   } about;  // one number of the scene, of a body, of several
   double (*scene)(const Sample&);
   double (*body)(const Sample&, physics::BodyId);
+  bool isEnergyChange = false;  // a gain above zero, a loss below: both ends are told
 };
 std::span<const Metric> metrics();      // all of them
 std::span<const Metric> bodyMetrics();  // those of a body or of several

@@ -79,10 +79,11 @@ class Checker {
     double value = 0;  // the worst over its span
     double atTime = 0;
     bool holds = true;
-    bool seen = true;    // false: no frame was in its span
-    double bound = 0;    // what the value is held against
-    bool atMost = true;  // from above, else from below
-    std::string text;    // "joint_error 3.1e-07 m <= 1e-06 m"
+    bool seen = true;            // false: no frame was in its span
+    double least = 0, most = 0;  // over its span
+    double bound = 0;            // what the value is held against
+    bool atMost = true;          // from above, else from below
+    std::string text;            // "joint_error 3.1e-07 m <= 1e-06 m"
     std::optional<Failure> failure;
   };
   std::vector<Verdict> verdicts() const;

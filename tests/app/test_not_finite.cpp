@@ -106,6 +106,18 @@ TEST_F(NotFinite, CheckFailsThoughEveryExpectationHolds) {
   EXPECT_EQ(outcome.output.find("FAIL"), std::string::npos) << outcome.output;
 }
 
+TEST_F(NotFinite, CheckDoesNotCallItFinite) {
+  writeText(folder / "fast.toml",
+            std::string(kScene) + "[[expect]]\nmetric = \"finite\"\n" + kForce);
+  const Outcome outcome = run("check fast.toml --progress none -o run");
+  expectTold(outcome);
+  EXPECT_NE(outcome.output.find("FAIL  fast               finite 0, expected >= 1"),
+            std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("; the run stopped at frame "), std::string::npos)
+      << outcome.output;
+}
+
 TEST_F(NotFinite, EveryMethodTellsIt) {
   for (const char* method : {"nonlinear_gauss_seidel", "direct", "linear_gauss_seidel", "xpbd",
                              "sequential_impulses", "penalty", "penalty_explicit"}) {

@@ -55,6 +55,27 @@ TEST(Metric, TellsValueAndBoundInItsText) {
             "drift of p 2 m, expected <= 1 m");
 }
 
+// A bound on one side must not hide what is on the other.
+TEST(Metric, AnEnergyIsToldFromItsLossToItsGain) {
+  const std::string fall = "metric = \"energy_drift\"\n";
+  const std::string drag = "[[drag]]\nbody = \"p\"\ncoefficient = 0.1\n";
+  const auto verdict = verdictOnFall(fall + "at_most = 0.001\n" + drag);
+  EXPECT_TRUE(verdict.holds);
+  EXPECT_LT(verdict.least, -0.01);
+  EXPECT_EQ(verdict.most, 0);
+  EXPECT_TRUE(verdict.text.starts_with("energy_drift -")) << verdict.text;
+  EXPECT_TRUE(verdict.text.ends_with(" ... 0 <= 0.1 % (no gain; it says nothing of a loss)"))
+      << verdict.text;
+  const auto least = verdictOnFall(fall + "at_least = -0.5\n" + drag);
+  EXPECT_TRUE(least.text.ends_with(" ... 0 >= -50 % (no further loss; it says nothing of a gain)"))
+      << least.text;
+  const auto both = verdictOnFall(fall + "at_most = 0.001\nat_least = -0.5\n" + drag);
+  EXPECT_TRUE(both.text.ends_with(" ... 0 >= -50 % and <= 0.1 %")) << both.text;
+  const auto joule = verdictOnFall("metric = \"energy_gain\"\nat_most = 1\n" + drag);
+  EXPECT_TRUE(joule.text.ends_with(" ... 0 J <= 1 J (no gain; it says nothing of a loss)"))
+      << joule.text;
+}
+
 TEST(Metric, TiltOfABodyThatTurnsAboutZIsItsAngle) {
   const Scene scene = sceneOf(
       "duration = 0.5\n[simulation]\nmethod = \"nonlinear_gauss_seidel\"\n"
