@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <fstream>
 #include <memory>
+#include <string_view>
 
 #include "app/commands.h"
 #include "app/console.h"
@@ -27,7 +29,7 @@ struct GoldenOptions {
 };
 
 std::vector<std::string> chosenScenes(const GoldenOptions& options) {
-  return options.scenes.empty() ? scenes::libraryScenes() : options.scenes;
+  return options.scenes.empty() ? wholeLibrary() : options.scenes;
 }
 
 fs::path goldenFolder(const GoldenOptions& options, const std::string& scene) {
@@ -50,17 +52,40 @@ const GoldenHashes* findHashes(const GoldenRecord& record, int frame) {
   return found == record.frames.end() ? nullptr : &found->second;
 }
 
-// Empty when there is no such file.
-render::Image readGolden(const fs::path& file) {
+struct Golden {
+  render::Image image;  // empty: there is none, or
+  std::string problem;  // it cannot be read
+};
+
+// A damaged image is the finding of a check, not the end of it.
+Golden readGolden(const fs::path& file) {
   if (!fs::exists(file)) return {};
-  return render::readPng(file);
+  try {
+    return {render::readPng(file), ""};
+  } catch (const std::system_error&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    constexpr std::string_view kPointer = "version https://git-lfs";
+    std::string start(kPointer.size(), '\0');
+    std::ifstream(file, std::ios::binary).read(start.data(), static_cast<long>(start.size()));
+    const bool isPointer = start == kPointer;
+    return {{}, isPointer ? file.string() + " is a Git LFS pointer: git lfs pull" : error.what()};
+  }
+}
+
+std::string frameName(const scenes::Scene& scene, int frame) {
+  return fmt::format("{} {:05}", scene.name, frame);
 }
 
 ImagePair compareFrame(const GoldenOptions& options, const scenes::Scene& scene,
-                       const GoldenRecord& record, const GoldenFrame& now, const fs::path& folder) {
-  ImagePair pair = comparePair(fmt::format("{} {:05}", scene.name, now.frame),
-                               readGolden(goldenImage(folder, now.frame)), now.image);
+                       const GoldenRecord& record, const GoldenRun& run, const GoldenFrame& now,
+                       const fs::path& folder) {
+  Golden golden = readGolden(goldenImage(folder, now.frame));
+  ImagePair pair = comparePair(frameName(scene, now.frame), std::move(golden.image), now.image);
+  if (!golden.problem.empty()) pair.comparison.reason = golden.problem;
   pair.remark = movedLayer(findHashes(record, now.frame), now, pair.comparison.identical);
+  const std::string parting = describeParting(record.motion, run.motion, now.frame, run.bodyNames);
+  if (!parting.empty()) pair.remark = "the physics moved " + parting;
   if (options.strict && !pair.remark.empty()) pair.passed = false;
   const std::string& promised = scene.golden.stateHash;
   if (now.frame == scene.golden.frames.back() && !promised.empty() &&
@@ -71,23 +96,48 @@ ImagePair compareFrame(const GoldenOptions& options, const scenes::Scene& scene,
   return pair;
 }
 
+ImagePair failedPair(const std::string& name, const std::string& problem) {
+  ImagePair pair = comparePair(name, {}, {});
+  pair.comparison.reason = problem;
+  return pair;
+}
+
+// What one scene's goldens come to; fewer than asked for where the user interrupts.
+std::vector<ImagePair> checkScene(const GoldenOptions& options, const std::string& name) {
+  const scenes::Scene scene = scenes::readScene(name, options.common.overrides);
+  const fs::path folder = goldenFolder(options, scene.name);
+  const GoldenRecord record = readGoldenRecord(folder);
+  std::vector<ImagePair> pairs;
+  if (scene.golden.frames.empty()) say(fmt::format("none  {:<24} has no golden frames\n", name));
+  if (!record.problem.empty()) {
+    pairs.push_back(failedPair(scene.name + " golden.json", record.problem));
+  }
+  const GoldenRun run =
+      drawGoldenFrames(scene, record.motion.bounds, options.common.progressMode());
+  if (interrupted()) return pairs;
+  for (const GoldenFrame& now : run.frames) {
+    pairs.push_back(compareFrame(options, scene, record, run, now, folder));
+  }
+  for (std::size_t i = run.frames.size(); i < scene.golden.frames.size(); ++i) {
+    pairs.push_back(failedPair(frameName(scene, scene.golden.frames[i]), run.problem));
+  }
+  return pairs;
+}
+
 ExitCode checkGoldens(const GoldenOptions& options) {
   std::vector<ImagePair> pairs;
   bool passed = true;
   for (const std::string& name : chosenScenes(options)) {
-    const scenes::Scene scene = scenes::readScene(name, options.common.overrides);
-    const fs::path folder = goldenFolder(options, scene.name);
-    const GoldenRecord record = readGoldenRecord(folder);
-    if (scene.golden.frames.empty()) say(fmt::format("none  {:<24} has no golden frames\n", name));
-    const std::vector<GoldenFrame> drawn = drawGoldenFrames(scene, options.common.progressMode());
-    if (interrupted()) return ExitCode::kInterrupted;
-    for (const GoldenFrame& now : drawn) {
-      pairs.push_back(compareFrame(options, scene, record, now, folder));
-      passed = passed && pairs.back().passed;
-      if (!options.common.quiet) say(describePair(pairs.back()));
+    for (ImagePair& pair : checkScene(options, name)) {
+      passed = passed && pair.passed;
+      if (!options.common.quiet) say(describePair(pair));
+      pairs.push_back(std::move(pair));
     }
+    if (interrupted()) return ExitCode::kInterrupted;
     flushOutput();
   }
+  if (pairs.empty())
+    throw CheckFailed("golden check: nothing was compared, there are no [golden] frames");
   if (passed) return ExitCode::kDone;
   const fs::path page =
       writeImageReport("Golden images", pairs, options.common.outputFolder("golden"));
@@ -103,30 +153,41 @@ void removeStale(const GoldenRecord& before, const GoldenRecord& after, const fs
   }
 }
 
+// Writes the image where it is another one, and says what it is beside the one that was there.
+bool updateFrame(const scenes::Scene& scene, const GoldenRecord& before, const GoldenFrame& now,
+                 const fs::path& folder) {
+  const fs::path file = goldenImage(folder, now.frame);
+  const Golden golden = readGolden(file);
+  const bool samePixels = golden.image == now.image;
+  const std::string moved = movedLayer(findHashes(before, now.frame), now, samePixels);
+  const std::string what = !golden.problem.empty() ? "new, for " + golden.problem
+                           : !exists(golden.image) ? "new"
+                           : moved.empty()         ? "unchanged"
+                                                   : moved;
+  say(fmt::format("{} {:05}: {}\n", scene.name, now.frame, what));
+  if (!samePixels) {
+    makeFolder(folder);
+    render::writePng(now.image, file);
+  }
+  return !moved.empty();
+}
+
 void updateScene(const GoldenOptions& options, const std::string& name) {
   const scenes::Scene scene = scenes::readScene(name, options.common.overrides);
   const fs::path folder = goldenFolder(options, scene.name);
   const GoldenRecord before = readGoldenRecord(folder);
-  GoldenRecord after{options.reason, {}};
-  bool changed = false;
-  const std::vector<GoldenFrame> drawn = drawGoldenFrames(scene, options.common.progressMode());
+  const GoldenRun run = drawGoldenFrames(scene, {}, options.common.progressMode());
   if (interrupted()) return;
-  for (const GoldenFrame& now : drawn) {
+  if (!run.problem.empty()) throw CheckFailed(run.problem);
+  GoldenRecord after{options.reason, {}, run.motion, ""};
+  bool changed = before.frames.size() != run.frames.size();
+  for (const GoldenFrame& now : run.frames) {
     after.frames[now.frame] = now.hashes;
-    const fs::path file = goldenImage(folder, now.frame);
-    const render::Image image = readGolden(file);
-    const bool samePixels = image == now.image;
-    const std::string moved = movedLayer(findHashes(before, now.frame), now, samePixels);
-    say(fmt::format("{} {:05}: {}\n", scene.name, now.frame,
-                    !exists(image)  ? "new"
-                    : moved.empty() ? "unchanged"
-                                    : moved));
-    changed = changed || !moved.empty();
-    if (samePixels) continue;
-    makeFolder(folder);
-    render::writePng(now.image, file);
+    changed = updateFrame(scene, before, now, folder) || changed;
   }
-  if (!changed && before.frames.size() == after.frames.size()) return;
+  // A record that only gains the motion behind the same images keeps their reason.
+  if (!changed) after.reason = before.reason;
+  if (!changed && toJson(before.motion) == toJson(after.motion)) return;
   removeStale(before, after, folder);
   writeGoldenRecord(after, folder);
 }

@@ -33,23 +33,32 @@ class GoldenDrawing {
     options_.aspect = static_cast<double>(scene.golden.width) / scene.golden.height;
   }
 
-  std::vector<GoldenFrame> run(int frames) {
-    const std::vector<int>& wanted = simulation_.scene().golden.frames;
-    const PlayEnd end = play(simulation_, frames, [&](double) {
-      if (options_.hud) history_.push_back(simulation_.metrics());
-      if (std::find(wanted.begin(), wanted.end(), simulation_.frame()) != wanted.end()) draw();
-    });
-    if (!end.problem.empty()) throw CheckFailed(end.problem);
-    return std::move(drawn_);
+  GoldenRun run(int frames) {
+    try {
+      run_.problem = play(simulation_, frames, [&](double) { visit(); }).problem;
+    } catch (const CheckFailed& error) {
+      run_.problem = error.what();
+    }
+    const bool fits = scenes::needsMotionBounds(simulation_.scene());
+    run_.motion = recorder_.take(fits ? std::optional(bounds_) : std::nullopt);
+    for (physics::BodyId b = 1; b < simulation_.world().bodyCount(); ++b) {
+      run_.bodyNames.push_back(simulation_.bodyName(b));
+    }
+    return std::move(run_);
   }
 
  private:
-  void draw() {
+  void visit() {
+    if (options_.hud) history_.push_back(simulation_.metrics());
+    const std::vector<int>& wanted = simulation_.scene().golden.frames;
+    const bool isGolden = std::binary_search(wanted.begin(), wanted.end(), simulation_.frame());
+    recorder_.observe(simulation_, isGolden);
+    if (!isGolden) return;
     const render::Picture picture = scenes::view(simulation_, bounds_, options_, history_);
-    drawn_.push_back(
+    run_.frames.push_back(
         {simulation_.frame(),
          {hexadecimal(simulation_.stateHash()), hexadecimal(render::pictureHash(picture))},
-         renderer_->draw(picture)});
+         drawFrame(*renderer_, simulation_.frame(), picture)});
   }
 
   scenes::Simulation simulation_;
@@ -57,20 +66,31 @@ class GoldenDrawing {
   scenes::ViewOptions options_;
   std::unique_ptr<render::Renderer> renderer_;
   std::vector<scenes::FrameMetrics> history_;
-  std::vector<GoldenFrame> drawn_;
+  MotionRecorder recorder_;
+  GoldenRun run_;
 };
+
+void fillRecord(const Json& json, GoldenRecord& record) {
+  record.reason = json.at("reason").get<std::string>();
+  for (const Json& frame : json.at("frames")) {
+    record.frames[frame.at("frame").get<int>()] = {frame.at("state").get<std::string>(),
+                                                   frame.at("picture").get<std::string>()};
+  }
+  if (json.contains("motion")) record.motion = motionFrom(json["motion"]);  // older ones have none
+}
 
 }  // namespace
 
-std::vector<GoldenFrame> drawGoldenFrames(const scenes::Scene& scene, ProgressMode progress) {
-  const std::vector<int>& wanted = scene.golden.frames;
-  if (wanted.empty()) return {};
-  const int frames = 1 + *std::max_element(wanted.begin(), wanted.end());
+GoldenRun drawGoldenFrames(const scenes::Scene& scene,
+                           const std::optional<scenes::MotionBounds>& bounds,
+                           ProgressMode progress) {
+  if (scene.golden.frames.empty()) return {};
+  const int frames = 1 + scene.golden.frames.back();
   // The camera fits the motion up to the last golden frame: early frames must not cost the whole
   // run.
-  const scenes::MotionBounds bounds = findBounds(scene, frames, progress);
+  const scenes::MotionBounds fitted = bounds ? *bounds : findBounds(scene, frames, progress);
   if (interrupted()) return {};  // the camera has not seen it all
-  return GoldenDrawing(scene, bounds).run(frames);
+  return GoldenDrawing(scene, fitted).run(frames);
 }
 
 std::filesystem::path goldenImage(const std::filesystem::path& folder, int frame) {
@@ -79,13 +99,14 @@ std::filesystem::path goldenImage(const std::filesystem::path& folder, int frame
 
 GoldenRecord readGoldenRecord(const std::filesystem::path& folder) {
   GoldenRecord record;
-  std::ifstream file(folder / kFile);
-  const Json json = Json::parse(file, nullptr, false);
-  if (!json.is_object()) return record;
-  record.reason = json.value("reason", "");
-  for (const Json& frame : json.value("frames", Json::array())) {
-    record.frames[frame.value("frame", -1)] = {frame.value("state", ""),
-                                               frame.value("picture", "")};
+  const std::filesystem::path path = folder / kFile;
+  if (!std::filesystem::exists(path)) return record;
+  try {
+    std::ifstream file(path);
+    fillRecord(Json::parse(file), record);
+  } catch (const Json::exception& error) {
+    record = {};
+    record.problem = fmt::format("{} cannot be read: {}", path.string(), error.what());
   }
   return record;
 }
@@ -95,7 +116,8 @@ void writeGoldenRecord(const GoldenRecord& record, const std::filesystem::path& 
   for (const auto& [frame, hashes] : record.frames) {
     frames.push_back({{"frame", frame}, {"state", hashes.state}, {"picture", hashes.picture}});
   }
-  const Json json = {{"reason", record.reason}, {"frames", frames}};
+  const Json json = {
+      {"reason", record.reason}, {"frames", frames}, {"motion", toJson(record.motion)}};
   writeFile(folder / kFile, json.dump(2) + "\n");
 }
 

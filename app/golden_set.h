@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/golden_motion.h"
 #include "app/progress.h"
 #include "render/image.h"
 #include "scenes/scene.h"
@@ -27,13 +28,25 @@ struct GoldenFrame {
 struct GoldenRecord {
   std::string reason;  // why the images are as they are
   std::map<int, GoldenHashes> frames;
+  GoldenMotion motion;
+  std::string problem;  // why golden.json cannot be read; empty: it can, or there is none
 };
 
-// Simulates up to the last frame of [golden] and draws those it names.
-std::vector<GoldenFrame> drawGoldenFrames(const scenes::Scene& scene, ProgressMode progress);
+struct GoldenRun {
+  std::vector<GoldenFrame> frames;
+  GoldenMotion motion;
+  std::vector<std::string> bodyNames;  // but for the world
+  std::string problem;                 // why the last frames are missing; empty: they are not
+};
+
+// Simulates up to the last frame of [golden] and draws those it names. A camera that fits the
+// motion fits `bounds`, those of the approved pictures: what differs then is what moved.
+GoldenRun drawGoldenFrames(const scenes::Scene& scene,
+                           const std::optional<scenes::MotionBounds>& bounds,
+                           ProgressMode progress);
 
 std::filesystem::path goldenImage(const std::filesystem::path& folder, int frame);
-GoldenRecord readGoldenRecord(const std::filesystem::path& folder);  // empty when there is none
+GoldenRecord readGoldenRecord(const std::filesystem::path& folder);
 void writeGoldenRecord(const GoldenRecord& record, const std::filesystem::path& folder);
 
 }  // namespace app

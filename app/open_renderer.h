@@ -1,4 +1,4 @@
-// A Renderer, or an error that blames the machine.
+// A Renderer, or an error that blames the machine, and a frame, or an error that blames the scene.
 #pragma once
 
 #include <memory>
@@ -8,5 +8,10 @@
 namespace app {
 
 std::unique_ptr<render::Renderer> openRenderer(const render::RendererOptions& options);
+
+// Throws CheckFailed that names the frame where it is too far away to be drawn. The image is the
+// renderer's, until it draws again.
+const render::Image& drawFrame(render::Renderer& renderer, int frame,
+                               const render::Picture& picture);
 
 }  // namespace app

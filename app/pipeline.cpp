@@ -1,29 +1,12 @@
 // Pictures in, images out, on as many threads as asked.
 #include "app/pipeline.h"
 
-#include <stdexcept>
-#include <string>
 #include <utility>
 
-#include "app/exit_code.h"
 #include "app/open_renderer.h"
 #include "app/stopwatch.h"
 
 namespace app {
-
-namespace {
-
-// States that are finite may be too far away for single precision.
-const render::Image& drawOne(render::Renderer& renderer, int frame,
-                             const render::Picture& picture) {
-  try {
-    return renderer.draw(picture);
-  } catch (const std::invalid_argument& error) {
-    throw CheckFailed("frame " + std::to_string(frame) + " cannot be drawn: " + error.what());
-  }
-}
-
-}  // namespace
 
 Pipeline::Pipeline(const render::RendererOptions& options, int workers, Sink sink)
     : sink_(std::move(sink)), queue_(static_cast<std::size_t>(2 * workers)) {
@@ -61,7 +44,7 @@ void Pipeline::work(const render::RendererOptions& options) {
     const std::unique_ptr<render::Renderer> renderer = openRenderer(options);
     while (const std::optional<Job> job = queue_.pop()) {
       Stopwatch watch;
-      const render::Image& image = drawOne(*renderer, job->frame, job->picture);
+      const render::Image& image = drawFrame(*renderer, job->frame, job->picture);
       const double draw = watch.lap();
       sink_(job->frame, image);
       const std::lock_guard lock(mutex_);

@@ -56,6 +56,52 @@ TEST_F(Golden, AMovedCameraFailsAndOnlyThePictureIsNamed) {
   EXPECT_EQ(golden("check " + moved).code, 0);
 }
 
+TEST_F(Golden, ADamagedImageFailsAndTheOthersAreChecked) {
+  ASSERT_EQ(golden("update --reason 'the first'").code, 0);
+  const fs::path image = folder / "goldens" / "drop" / "00000.png";
+  const std::string whole = readBytes(image);
+  const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
+  for (const std::string& damaged : {std::string(), whole.substr(0, 100), pointer}) {
+    writeText(image, damaged);
+    const Outcome check = golden("check");
+    EXPECT_EQ(check.code, 3) << check.errors;
+    const std::vector<std::string> told = lines(check.output);
+    ASSERT_GE(told.size(), 2u) << check.output;
+    EXPECT_TRUE(told[0].starts_with("FAIL  drop 00000")) << told[0];
+    EXPECT_NE(told[0].find(damaged == pointer ? "git lfs pull" : "not a readable PNG"),
+              std::string::npos)
+        << told[0];
+    EXPECT_TRUE(told[1].starts_with("ok    drop 00006")) << told[1];
+  }
+  EXPECT_EQ(golden("update --reason 'it was damaged'").code, 0);
+  EXPECT_EQ(readBytes(image), whole);
+}
+
+TEST_F(Golden, ABrokenRecordFails) {
+  ASSERT_EQ(golden("update --reason 'the first'").code, 0);
+  const fs::path record = folder / "goldens" / "drop" / "golden.json";
+  const std::string whole = readBytes(record);
+  for (const std::string& broken :
+       {std::string(), whole.substr(0, 100), std::string("{}"), std::string("[1]"),
+        std::string("{\"reason\": 1, \"frames\": []}"), std::string("<<<<<<< HEAD\n")}) {
+    writeText(record, broken);
+    const Outcome check = golden("check");
+    EXPECT_EQ(check.code, 3) << broken << check.errors;
+    EXPECT_NE(check.output.find("golden.json cannot be read"), std::string::npos) << check.output;
+  }
+}
+
+TEST_F(Golden, NumbersThatEndFailAndTheOthersAreChecked) {
+  std::string lost = readBytes(folder / "drop.toml");
+  lost += "[[force]]\nbody = \"ball\"\nforce = [0, 1.7e308, 0]\n";
+  writeText(folder / "lost.toml", lost);
+  ASSERT_EQ(golden("update --reason 'the first'").code, 0);
+  const Outcome check = run("golden check lost.toml drop.toml --goldens goldens");
+  EXPECT_EQ(check.code, 3);
+  EXPECT_NE(check.output.find("FAIL  lost 00006"), std::string::npos) << check.output;
+  EXPECT_NE(check.output.find("ok    drop 00006"), std::string::npos) << check.output;
+}
+
 TEST_F(Golden, CompareTellsEqualFromDifferentImagesAndFolders) {
   ASSERT_EQ(golden("update --reason 'the first'").code, 0);
   ASSERT_EQ(

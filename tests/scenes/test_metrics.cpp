@@ -58,7 +58,7 @@ TEST(Metric, TellsValueAndBoundInItsText) {
 // A bound on one side must not hide what is on the other.
 TEST(Metric, AnEnergyIsToldFromItsLossToItsGain) {
   const std::string fall = "metric = \"energy_drift\"\n";
-  const std::string drag = "[[drag]]\nbody = \"p\"\ncoefficient = 0.1\n";
+  const std::string drag = "[[drag]]\nbody = \"p\"\ncoefficient = 100\n";
   const auto verdict = verdictOnFall(fall + "at_most = 0.001\n" + drag);
   EXPECT_TRUE(verdict.holds);
   EXPECT_LT(verdict.least, -0.01);
