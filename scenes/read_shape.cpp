@@ -146,9 +146,9 @@ PlacedShape readShape(const Value& value, const Spot& spot) {
     reader.finish();
     return shape;
   }
-  fail(
-      spot.context, member.place,
-      fmt::format("{}: unknown shape '{}'{}", spot.key, member.key, didYouMean(member.key, known)));
+  fail(spot.context, member.place,
+       fmt::format("{}: unknown shape '{}'{}", spot.key, member.key,
+                   nearestOrAll(member.key, known)));
 }
 
 void readValue(const Value& value, const Spot& spot, physics::Shape& out) {

@@ -60,7 +60,7 @@ void TableReader::finish() const {
         (member.value.isArray() && !member.value.items.empty() && member.value.items[0].isTable());
     fail(context_, member.place,
          fmt::format("{}unknown {} '{}'{}", key_.empty() ? "" : key_ + ": ",
-                     isTable ? "table" : "key", member.key, didYouMean(member.key, known_)));
+                     isTable ? "table" : "key", member.key, nearestOrAll(member.key, known_)));
   }
 }
 

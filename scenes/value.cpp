@@ -219,4 +219,12 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
   return best == nullptr ? "" : fmt::format("; did you mean '{}'?", *best);
 }
 
+std::string nearestOrAll(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string nearest = didYouMean(word, candidates);
+  if (!nearest.empty() || candidates.empty()) return nearest;
+  const auto last = candidates.end() - 1;
+  if (last == candidates.begin()) return "; expected " + *last;
+  return fmt::format("; expected {} or {}", fmt::join(candidates.begin(), last, ", "), *last);
+}
+
 }  // namespace scenes

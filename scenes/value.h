@@ -47,8 +47,9 @@ std::string describe(const Value& value);
 // Throws InputError("file:line:col: expected ...") where `text` is not TOML.
 Value parseToml(const std::string& text, const std::string& path);
 
-// Applies "a.b.c=value" to the tree; "a.b=none" takes a table, or all tables of that word, out. Arrays are addressed by index, arrays of tables by name as
-// well; a key that is not there is added and left to the schema to judge. Throws InputError.
+// Applies "a.b.c=value" to the tree; "a.b=none" takes a table, or all tables of that word, out.
+// Arrays are addressed by index, arrays of tables by name as well; a key that is not there is added
+// and left to the schema to judge. Throws InputError.
 void applyOverride(Value& root, const std::string& setting);
 
 // What is at "a.b.c" by the same rules; null where nothing is.
@@ -56,5 +57,7 @@ const Value* findValue(const Value& root, const std::string& key);
 
 // "; did you mean 'x'?" with the nearest candidate, or nothing where none is near.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
+// The same, or "; expected x, y or z" with all of them where none is near.
+std::string nearestOrAll(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace scenes

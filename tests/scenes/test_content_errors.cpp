@@ -51,6 +51,9 @@ TEST(SceneBody, RefusesANameThatIsTaken) {
 TEST(SceneBody, RefusesAnUnknownShape) {
   EXPECT_EQ(errorOf("[[body]]\nshape = { spere = { radius = 1 } }\n"),
             "test.toml:2:11: body.shape: unknown shape 'spere'; did you mean 'sphere'?");
+  EXPECT_EQ(errorOf("[[body]]\nshape = { banana = {} }\n"),
+            "test.toml:2:11: body.shape: unknown shape 'banana'; expected point, box, sphere, "
+            "capsule, cylinder, convex or plane");
 }
 
 TEST(SceneBody, RefusesARadiusOfZero) {

@@ -48,8 +48,16 @@ TEST(SceneFile, NamesTheNearestTableForAnUnknownOne) {
             "test.toml:1:3: unknown table 'bdoy'; did you mean 'body'?");
 }
 
-TEST(SceneFile, SaysNothingAboutAKeyThatIsNearNone) {
-  EXPECT_EQ(errorOf("zzzzzzzzzz = 1\n"), "test.toml:1:1: unknown key 'zzzzzzzzzz'");
+TEST(SceneFile, NamesAllKeysForOneThatIsNearNone) {
+  EXPECT_EQ(errorOf("[light]\nzzzzzzzzzz = 1\n"),
+            "test.toml:2:1: light: unknown key 'zzzzzzzzzz'; expected shadows");
+  EXPECT_EQ(errorOf("[gravity]\nzzzzzzzzzz = 1\n"),
+            "test.toml:2:1: gravity: unknown key 'zzzzzzzzzz'; expected acceleration");
+  EXPECT_EQ(errorOf("[sleep]\nzzzzzzzzzz = 1\n"),
+            "test.toml:2:1: sleep: unknown key 'zzzzzzzzzz'; expected enabled, speed or time");
+  const std::string table = errorOf("zzzzzzzzzz = 1\n");
+  EXPECT_TRUE(table.starts_with("test.toml:1:1: unknown key 'zzzzzzzzzz'; expected title, "))
+      << table;
 }
 
 TEST(SceneFile, WantsArraysOfTablesForWordsThatMayRepeat) {
