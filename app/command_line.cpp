@@ -54,6 +54,7 @@ ExitCode chooseAndRun(int argc, const char* const* argv) {
   addCheck(line, action);
   addDoctor(line, action);
   addGallery(line, action);
+  addWords(line, action);
   requireKnownCommand(line, argc, argv);
   try {
     line.parse(argc, argv);

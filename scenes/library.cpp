@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "scenes/figure_sheet.h"
+#include "scenes/glossary.h"
 #include "scenes/recipe.h"
 #include "scenes/value.h"
 
@@ -106,6 +107,29 @@ Scene readScene(const std::string& scene, std::span<const std::string> overrides
         fmt::format("{}: expected at least one [[body]], or a generator of bodies", path));
   }
   return read;
+}
+
+Glossary shippedGlossary() {
+  Glossary glossary;
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (const char* folder : {"words", "library", "studies/scenes", "figures/panels"}) {
+    for (const auto& entry : fs::directory_iterator(home() / "scenes" / folder, error)) {
+      if (entry.path().extension() == ".toml") paths.push_back(entry.path());
+    }
+  }
+  if (paths.empty()) throw InputError(nothingIn((home() / "scenes").string()));
+  std::sort(paths.begin(), paths.end());
+  for (const fs::path& path : paths) {
+    parseScene(readText(path.string(), "scene"), path.string(), {}, &glossary);
+  }
+  for (auto& [table, keys] : glossary.tables) {
+    for (GlossaryKey& key : keys) {
+      const Meaning* meaning = findMeaning(table, key.name);
+      if (key.type.empty() && meaning != nullptr) key.type = meaning->type;
+    }
+  }
+  return glossary;
 }
 
 std::vector<std::string> figureSheets() {

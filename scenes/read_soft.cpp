@@ -26,9 +26,7 @@ struct Look {
 
 Look readLook(TableReader& reader) {
   Look look;
-  if (const Value* value = reader.take("draw")) {
-    look.net = readChoice(*value, reader.spot({"draw"}), kLooks) == 1;
-  }
+  look.net = reader.choose("draw", kLooks, 0) == 1;
   readColor(reader, look.color);
   return look;
 }

@@ -7,6 +7,7 @@
 
 #include "physics/base/rotation.h"
 #include "physics/make/soft.h"
+#include "scenes/glossary.h"
 #include "scenes/table_reader.h"
 
 namespace scenes {
@@ -15,43 +16,15 @@ namespace {
 using physics::Unit;
 using physics::Vec3;
 
-const char* unitName(Unit unit) {
-  switch (unit) {
-    case Unit::kPoint:
-    case Unit::kBodyPoint:
-    case Unit::kMetre:
-      return " [m]";
-    case Unit::kDegrees:
-      return " [degrees]";
-    case Unit::kNewtonPerMetre:
-      return " [N/m]";
-    case Unit::kNewtonSecondPerMetre:
-      return " [N s/m]";
-    case Unit::kNewtonMetre:
-      return " [N m]";
-    case Unit::kNewtonMetrePerRadian:
-      return " [N m/rad]";
-    case Unit::kNewtonMetreSecond:
-      return " [N m s]";
-    case Unit::kRadianPerSecond:
-      return " [rad/s]";
-    case Unit::kNone:
-    case Unit::kBody:
-    case Unit::kDirection:
-      break;
-  }
-  return "";
+// " >= 0 [m]": behind what is expected.
+std::string range(const physics::Field& field) {
+  const std::string word = rangeWord(field);
+  return word.empty() ? "" : " " + word;
 }
 
-std::string range(const physics::Field& field) {
-  const bool low = std::isfinite(field.low), high = std::isfinite(field.high);
-  const std::string above = field.low == kPositive ? " > 0"
-                            : low                  ? fmt::format(" >= {}", field.low)
-                                                   : "";
-  if (low && high && field.low != kPositive)
-    return fmt::format(" in [{}, {}]", field.low, field.high);
-  if (high) return fmt::format("{}{} <= {}", above, above.empty() ? "" : " and", field.high);
-  return above;
+std::string unitName(Unit unit) {
+  const std::string word = unitWord(unit);
+  return word.empty() ? "" : " [" + word + "]";
 }
 
 // `infinite`: +inf says something here, such as a torque without a limit.

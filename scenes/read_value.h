@@ -19,10 +19,13 @@ struct GridIndex;
 
 namespace scenes {
 
+struct Glossary;
+
 // What errors and names need to know about the file being read.
 struct Context {
   std::string path;                                             // as the user gave it
   const std::map<std::string, physics::BodyId>* ids = nullptr;  // every name a constraint may use
+  Glossary* glossary = nullptr;                                 // notes every word that is known
 };
 
 // The place a value is read for: "file:line:col: key: " begins its errors.

@@ -12,6 +12,8 @@
 
 namespace scenes {
 
+struct Glossary;  // glossary.h
+
 struct Expectation {  // [[expect]]
   std::string
       metric;  // joint_error, energy_drift, momentum_drift, overlap, max_speed, finite, height, ...
@@ -82,7 +84,7 @@ struct Scene {
 // gravity.acceleration=[0,-1,0]), typed and checked as the file is.
 Scene readScene(const std::string& scene, std::span<const std::string> overrides = {});
 Scene parseScene(const std::string& text, const std::string& path,
-                 std::span<const std::string> overrides = {});
+                 std::span<const std::string> overrides = {}, Glossary* noted = nullptr);
 
 std::vector<std::string> libraryScenes();  // names, sorted
 

@@ -106,7 +106,7 @@ physics::Settings checkedSettings(const TableReader& root, const physics::Settin
 int Scene::frameCount() const { return static_cast<int>(std::lround(duration * fps)) + 1; }
 
 Scene parseScene(const std::string& text, const std::string& path,
-                 std::span<const std::string> overrides) {
+                 std::span<const std::string> overrides, Glossary* glossary) {
   Value tree = parseToml(text, path);
   for (const std::string& setting : applyStability(tree, path, overrides)) {
     applyOverride(tree, setting);
@@ -116,7 +116,7 @@ Scene parseScene(const std::string& text, const std::string& path,
   scene.path = path;
   scene.text = text;
   scene.overrides.assign(overrides.begin(), overrides.end());
-  Context context{path, nullptr};
+  Context context{path, nullptr, glossary};
   TableReader root(tree, "", context);
   checkWords(root);
   readHead(root, scene);

@@ -21,13 +21,6 @@ constexpr const char* kRegularisations[] = {"compliance", "damping"};
 constexpr const char* kInertias[] = {"plain", "spinning"};
 constexpr const char* kRefreshes[] = {"substep", "iteration"};
 
-// The index of a word among `choices`; `otherwise` where absent.
-int readWord(TableReader& reader, const char* key, std::span<const char* const> choices,
-             int otherwise) {
-  const Value* value = reader.take(key);
-  return value == nullptr ? otherwise : readChoice(*value, reader.spot({key}), choices);
-}
-
 void readSimulation(TableReader& reader, Scene& scene) {
   physics::Settings& settings = scene.settings;
   reader(Field{"fps", Unit::kNone, false, 1, 1e6}, scene.fps);
@@ -44,12 +37,12 @@ void readSimulation(TableReader& reader, Scene& scene) {
   reader(Field{"leave_out"}, settings.leavesOut);
   reader(Field{"seed"}, scene.seed);
   settings.method = static_cast<physics::Method>(
-      readWord(reader, "method", kMethods, static_cast<int>(settings.method)));
-  settings.stepping = static_cast<physics::Stepping>(readWord(reader, "stepping", kSteppings, 0));
+      reader.choose("method", kMethods, static_cast<int>(settings.method)));
+  settings.stepping = static_cast<physics::Stepping>(reader.choose("stepping", kSteppings, 0));
   settings.regularisationForm = static_cast<physics::Regularisation>(
-      readWord(reader, "regularisation_form", kRegularisations, 0));
-  settings.spinInertia = readWord(reader, "inertia", kInertias, 0) == 1;
-  settings.refreshInertia = readWord(reader, "inertia_refresh", kRefreshes, 1) == 1;
+      reader.choose("regularisation_form", kRegularisations, 0));
+  settings.spinInertia = reader.choose("inertia", kInertias, 0) == 1;
+  settings.refreshInertia = reader.choose("inertia_refresh", kRefreshes, 1) == 1;
 }
 
 void readContact(TableReader& reader, physics::Settings& settings) {

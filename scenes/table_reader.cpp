@@ -22,7 +22,17 @@ TableReader::TableReader(const Value& table, std::string key, const Context& con
 
 const Value* TableReader::take(const std::string& name) {
   if (!knows(name)) known_.push_back(name);
+  if (context_.glossary != nullptr) context_.glossary->note(key_, {name, "", "", "", "", false});
   return table_.find(name);
+}
+
+int TableReader::choose(const char* name, std::span<const char* const> choices, int otherwise) {
+  if (context_.glossary != nullptr) {
+    const char* standard = choices[static_cast<std::size_t>(otherwise)];
+    context_.glossary->note(key_, {name, choiceWord(choices), standard, "", "", false});
+  }
+  const Value* value = take(name);
+  return value == nullptr ? otherwise : readChoice(*value, spot({name}), choices);
 }
 
 bool TableReader::knows(const std::string& name) const {
@@ -53,6 +63,7 @@ void TableReader::exactlyOne(const char* a, const char* b) const {
 }
 
 void TableReader::finish() const {
+  if (context_.glossary != nullptr) context_.glossary->noteTable(key_);
   for (const Member& member : table_.members) {
     if (knows(member.key)) continue;
     const bool isTable =

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/glossary.h"
 #include "scenes/read_value.h"
 
 namespace scenes {
@@ -18,12 +19,17 @@ class TableReader {
   // The visitor of `fields`.
   template <class T>
   void operator()(const physics::Field& field, T& member) {
+    if (context_.glossary != nullptr) {
+      context_.glossary->note(key_, glossaryKey(field, member));
+    }
     const Value* value = take(field.name);
     if (value != nullptr) return readValue(*value, spot(field), member);
     if (field.required) failHere("expected a value for '" + std::string(field.name) + "'");
   }
 
   const Value* take(const std::string& name);  // null where absent; the name is known from now on
+  // The index of a word among `choices`; `otherwise` where absent.
+  int choose(const char* name, std::span<const char* const> choices, int otherwise);
   bool has(const std::string& name) const { return table_.find(name) != nullptr; }
   bool knows(const std::string& name) const;
 

@@ -21,6 +21,7 @@ const std::map<std::string, std::string> kShort = {
     {"compare", ""},
     {"plan", " --steps 2 --repeats 1"},
     {"study", " --quick --progress none"},
+    {"words", ""},
 };
 
 struct Blocks {
