@@ -24,6 +24,7 @@ constexpr const char* kRefreshes[] = {"substep", "iteration"};
 void readSimulation(TableReader& reader, Scene& scene) {
   physics::Settings& settings = scene.settings;
   reader(Field{"fps", Unit::kNone, false, 1, 1e6}, scene.fps);
+  reader(Field{"accuracy", Unit::kNone, false, 1e-12, 0.5}, settings.accuracy);
   reader(Field{"substeps", Unit::kNone, false, 1, 1e6}, settings.substeps);
   reader(Field{"iterations", Unit::kNone, false, 1, 1e6}, settings.iterations);
   reader(Field{"max_iterations", Unit::kNone, false, 0, 1e6}, settings.maxIterations);

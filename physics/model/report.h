@@ -29,6 +29,14 @@ struct EffectMemory {
   std::size_t bytes = 0;
 };
 
+// Where an accuracy is asked for: how what steps by it did, all islands together.
+struct AccuracyReport {
+  int accepted = 0, rejected = 0;  // steps of single islands
+  int order = 0;                   // the highest
+  double least = 0;                // the shortest [s]
+  double estimate = 0;             // of the error of this step, relative; the largest of an island
+};
+
 // What a step did, and what went wrong in it.
 struct StepReport {
   int substeps = 0;
@@ -39,6 +47,7 @@ struct StepReport {
   int fallbacks = 0;  // made by bdf2 where the symmetric scheme was asked for
   int asleep = 0;     // bodies, at the end of the step
   StepWork work;
+  AccuracyReport accuracy;
   struct NotFinite {
     int substep = 0;
     BodyId body = -1;

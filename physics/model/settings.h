@@ -44,6 +44,8 @@ struct SleepSettings {
 
 struct Settings {
   double dt = 1.0 / 60;  // one step() [s]
+  std::optional<double> accuracy;  // of the default method: relative to the size of what moves;
+                                   // absent: as fast as it is. accurate/extrapolation.h
   int substeps = 4;
   int iterations = 1;  // sweeps over all constraints per substep, N of Algorithm 1
   std::optional<double> tolerance;  // more of them, while one still moves a body by more [m]

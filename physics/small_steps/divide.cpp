@@ -6,6 +6,11 @@
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
+namespace {
+
+constexpr int kByItself = -2;  // of a body's batch: it has stepped, by an accuracy
+
+}  // namespace
 
 void SmallSteps::clear(Batch& batch) {
   batch.bodies.clear();
@@ -48,6 +53,7 @@ void SmallSteps::Impl::learn(Model& w) {
   articulationOf.assign(w.bodies.pose.size(), -1);
   deformableOf.assign(w.bodies.pose.size(), -1);
   responding.clear();
+  learnAccurate(w, rows);
   for (const BodyId root : roots) {
     const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
     const bool isDirect = mesh.fill <= (mesh.points ? kMostFillOfPoints : kMostFill);
@@ -103,8 +109,10 @@ int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) 
 }
 
 // What touches and what does not are apart: joints are closed further where no contact pushes.
-SmallSteps::Batch& SmallSteps::Impl::batchFor(int count, int sweepCount, bool touches) {
-  for (std::size_t k = 0; k < batchCount; ++k) {
+SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, int count, int sweepCount,
+                                              bool touches) {
+  const bool isAlone = w.settings.accuracy && touches;  // its steps are its own
+  for (std::size_t k = 0; k < batchCount && !isAlone; ++k) {
     const Batch& batch = batches[k];
     if (batch.substeps == count && batch.sweeps == sweepCount && batch.touches == touches) {
       return batches[k];
@@ -136,7 +144,7 @@ bool SmallSteps::Impl::softStepsNow(const Model& w, const SoftPair& pair) const 
 }
 
 // Of those that step now: islands by constraints and contacts, and the batch that each steps with.
-void SmallSteps::Impl::divide(Model& w) {
+void SmallSteps::Impl::divide(Model& w, double dt, AccuracyReport& report) {
   const Bodies& b = w.bodies;
   const auto bodyOf = [&](const KeptContact& c) { return isMovable(b, c.a) ? c.a : c.b; };
   const auto waits = [&](BodyId i) { return isMovable(b, i) && !steps[i]; };
@@ -176,7 +184,7 @@ void SmallSteps::Impl::divide(Model& w) {
     Held& island = held[islands[softMoverOf(w, pair)]];
     if (softStepsNow(w, pair)) island = std::max(island, Held::kJoined);
   }
-  assign();
+  assign(w, dt, report);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     if (!stepsNow(contacts[k])) continue;
     batches[batchOf[bodyOf(contacts[k])]].contacts.push_back(static_cast<int>(k));
@@ -198,17 +206,23 @@ void SmallSteps::Impl::assignSoft(Model& w) {
 }
 
 // Bodies to the batch of their island.
-void SmallSteps::Impl::assign() {
+void SmallSteps::Impl::assign(Model& w, double dt, AccuracyReport& report) {
   batchCount = 0;
   free.clear();
   for (const BodyId i : stepping) {
     const BodyId root = islands[i];
+    if (batchOf[root] == kByItself) continue;
+    if (batchOf[root] < 0 && dt > 0 && held[root] != Held::kTouching &&
+        advanceAccurately(w, root, dt, report)) {
+      batchOf[root] = kByItself;
+      continue;
+    }
     if (held[root] == Held::kNot) {
       free.push_back(i);
       continue;
     }
     if (batchOf[root] < 0) {
-      const Batch& batch = batchFor(substeps[root], sweeps[root], held[root] == Held::kTouching);
+      const Batch& batch = batchFor(w, substeps[root], sweeps[root], held[root] == Held::kTouching);
       batchOf[root] = static_cast<int>(&batch - batches.data());
     }
     batchOf[i] = batchOf[root];

@@ -62,6 +62,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   inertias.resize(bodies);
   spins.resize(bodies);
   meanSpins.resize(bodies, Vec3::Zero());
+  choices.resize(bodies, StepChoice(1, 3, kMostTouchingColumns));
   load.resize(bodies);
   sag.resize(bodies);
   drawn.resize(bodies);
@@ -72,32 +73,40 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   change.resize(bodies);
 }
 
+// Substeps of h from where the bodies are. What contacts and joints carried before is as it was.
+void SmallSteps::Impl::run(Model& w, Batch& batch, double h, int count, StepReport& report) {
+  batch.joints.take(articulations, batch.articulations);
+  for (int i = 0; i < count; ++i) {
+    predict(w, batch, h, i == 0);
+    if (i == 0 && !batch.blocks.empty()) rows(w, batch, h);
+    lookAgain(w, batch, h);
+    noteApproach(w, batch, h);
+    substep(w, batch, h, report);
+  }
+}
+
 // Those that step now, one of `parts` of a step: islands, batches, and each batch through its
 // substeps.
 void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
   const double dt = w.settings.dt / parts;
-  divide(w);
+  divide(w, dt, report.accuracy);
   tell(w, parts);
   fly(w, dt);
   report.work.moves += static_cast<std::int64_t>(free.size());
   for (std::size_t k = 0; k < batchCount; ++k) {
     Batch& batch = batches[k];
     const int count = (batch.substeps + parts - 1) / parts;
-    const double h = dt / count;
     report.substeps = std::max(report.substeps, parts * count);
     layOut(w, batch);
-    batch.joints.take(articulations, batch.articulations);
-    for (int i = 0; i < count; ++i) {
-      predict(w, batch, h, i == 0);
-      if (i == 0 && !batch.blocks.empty()) rows(w, batch, h);
-      lookAgain(w, batch, h);
-      noteApproach(w, batch, h);
-      substep(w, batch, h, report);
+    if (stepsAccurately(w, batch)) {
+      advanceAccurately(w, batch, dt, count, report);
+    } else {
+      run(w, batch, dt / count, count, report);
+      takeOver(w, batch, dt / count);
+      batch.joints.finish(w.kinds, dt / count);
     }
-    takeOver(w, batch, h);
-    ask(w, batch, h);
-    batch.joints.finish(w.kinds, h);
-    for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
+    ask(w, batch, dt / count);
+    for (const int d : batch.deformables) deformables[d].finish(w.kinds, dt / count);
     report.work.moves += static_cast<std::int64_t>(batch.bodies.size()) * count;
   }
   gatherSoft(w);

@@ -7,6 +7,7 @@
 //   renew.cpp         rows anew of what has turned far
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds
+//   accurately.cpp    islands that step by an accuracy
 //   bounce.cpp        restitution
 //   look.cpp          the contacts of a step, and which islands look for them twice
 //   ask.cpp           how many substeps and sweeps the next step takes
@@ -19,6 +20,7 @@
 #include <initializer_list>
 #include <map>
 
+#include "physics/accurate/extrapolation.h"
 #include "physics/model/model.h"
 #include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps.h"
@@ -98,7 +100,23 @@ struct SmallSteps::Impl {
   JointTopologies topologies;
   std::vector<Deformable> deformables;
   std::vector<int> articulationOf, deformableOf;  // by body, -1: none
-  bool known = false;                             // these are those of the world's constraints
+  struct Accurate {
+    Extrapolation motion;
+    IslandState state;
+  };
+  std::vector<Accurate> accurate;  // islands without contacts that can step by an accuracy
+  std::vector<int> accurateOf;     // by first body of these, -1: none
+  std::vector<Pose> trialNow, trialStart, trialEnd;
+  static constexpr int kMostTouchingColumns = 4;
+  std::vector<StepChoice> choices;  // by first body of an island that touches
+  struct {                          // of the batch that steps accurately
+    Tableau tableau;
+    std::vector<Pose> pose, fromPose;
+    std::vector<Velocity> velocity, fromVelocity;
+    std::vector<Vec3> fromSpin;
+    std::vector<char> turns;
+  } trial;
+  bool known = false;                 // these are those of the world's constraints
   std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
   std::vector<int> asked, askedSweeps;
   std::vector<SubstepLaw> law;  // by body: what it asks for `asked` by
@@ -125,6 +143,15 @@ struct SmallSteps::Impl {
   std::vector<double> drawn, carried, weight;           // the same
 
   void learn(Model& w);
+  void learnAccurate(const Model& w, const std::vector<std::vector<JointRef>>& rows);
+  bool advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report);
+  bool stepsAccurately(const Model& w, const Batch& batch) const;
+  void advanceAccurately(Model& w, Batch& batch, double dt, int count, StepReport& report);
+  double sizeOf(const Bodies& b, const Batch& batch) const;
+  void keepStart(const Bodies& b, const Batch& batch);
+  void tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report);
+  void goBack(Bodies& b, const Batch& batch);
+  void run(Model& w, Batch& batch, double h, int count, StepReport& report);
   void makeRoom(std::size_t bodies);
   void look(Model& w);
   bool lookOnce(Model& w);
@@ -132,10 +159,10 @@ struct SmallSteps::Impl {
   bool chooseMet(Model& w);
   bool choose(const Model& w, int parts);
   void spread(Model& w);
-  void divide(Model& w);
+  void divide(Model& w, double dt, AccuracyReport& report);
   int substepsForApproach(const Model& w, const KeptContact& c) const;
-  void assign();
-  Batch& batchFor(int substeps, int sweeps, bool touches);
+  void assign(Model& w, double dt, AccuracyReport& report);
+  Batch& batchFor(const Model& w, int substeps, int sweeps, bool touches);
   int colourOf(const Bodies& b, const KeptContact& c);
   BodyId leaderOf(BodyId i) const;
   bool meetsResponse(const KeptContact& c) const;

@@ -129,7 +129,20 @@ void write(K& kind, int index, const Vec3& lambda, double dt) {
   }
 }
 
+template <class C>
+Nature natureOfItem(const C& item) {
+  if constexpr (!kFits<C>) return Nature::kOther;
+  if constexpr (Force<C>) return Nature::kForce;
+  if constexpr (!canStand<C>()) return Nature::kOther;
+  if (isEquality(item)) return Nature::kEquality;
+  if constexpr (requires { item.isOneSided(); }) {
+    if (item.isOneSided()) return Nature::kOneSided;
+  }
+  return Nature::kOther;
+}
+
 struct Calls {
+  Nature (*nature)(const Kinds&, int);
   JointKind (*describe)(const Kinds&, int);
   void (*evaluate)(const Kinds&, int, const Configuration&, JointRow&);
   void (*write)(Kinds&, int, const Vec3&, double);
@@ -137,18 +150,23 @@ struct Calls {
 
 template <std::size_t... I>
 constexpr auto callsOf(std::index_sequence<I...>) {
-  return std::array<Calls, sizeof...(I)>{
-      Calls{[](const Kinds& kinds, int item) { return describe(std::get<I>(kinds), item); },
-            [](const Kinds& kinds, int item, const Configuration& at, JointRow& row) {
-              evaluateItem(std::get<I>(kinds).set.items[item], at, row);
-            },
-            [](Kinds& kinds, int item, const Vec3& lambda, double dt) {
-              write(std::get<I>(kinds), item, lambda, dt);
-            }}...};
+  return std::array<Calls, sizeof...(I)>{Calls{
+      [](const Kinds& kinds, int item) { return natureOfItem(std::get<I>(kinds).set.items[item]); },
+      [](const Kinds& kinds, int item) { return describe(std::get<I>(kinds), item); },
+      [](const Kinds& kinds, int item, const Configuration& at, JointRow& row) {
+        evaluateItem(std::get<I>(kinds).set.items[item], at, row);
+      },
+      [](Kinds& kinds, int item, const Vec3& lambda, double dt) {
+        write(std::get<I>(kinds), item, lambda, dt);
+      }}...};
 }
 constexpr auto kCalls = callsOf(std::make_index_sequence<std::tuple_size_v<Kinds>>{});
 
 }  // namespace
+
+Nature natureOf(const Kinds& kinds, JointRef ref) {
+  return kCalls[ref.kind].nature(kinds, ref.item);
+}
 
 JointKind kindOf(const Kinds& kinds, JointRef ref) {
   return kCalls[ref.kind].describe(kinds, ref.item);

@@ -35,6 +35,11 @@ struct JointRef {
   int kind, item;  // in Kinds, in its set
 };
 
+// Equality: it holds whatever it takes. One-sided: a limit. Other: of velocities, or of more
+// bodies.
+enum class Nature : char { kEquality, kOneSided, kForce, kOther };
+Nature natureOf(const Kinds& kinds, JointRef ref);
+
 JointKind kindOf(const Kinds& kinds, JointRef ref);
 void evaluateRow(const Kinds& kinds, JointRef ref, const Configuration& at, JointRow& row);
 void writeMultiplier(Kinds& kinds, JointRef ref, const Vec3& lambda, double dt);

@@ -1,0 +1,86 @@
+// Extrapolation, and the choice of its step and order.
+#include "physics/accurate/extrapolation.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace physics {
+namespace {
+
+// Joints are closed to this part of what a step may err by, for each of its parts.
+constexpr double kClosed = 1e-3;
+constexpr double kFinest = 1e-14;               // of the size: no closer than numbers are
+constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one step
+
+}  // namespace
+
+Extrapolation::Extrapolation(SymmetricStep step) : step_(std::move(step)) {
+  for (std::size_t i = 0; i < step_.bodies().size(); ++i) turns_.push_back(step_.turns(i));
+}
+
+// The next T_j1.
+bool Extrapolation::run(int n, double whole, const Surroundings& world, const TrialPoses& trial) {
+  step_.restart();
+  for (int k = 0; k < n; ++k) {
+    if (!step_.step(whole / n, tolerance_, world, trial)) return false;
+  }
+  tableau_.add(n, 2, step_.state().pose, step_.state().velocity);
+  return true;
+}
+
+bool Extrapolation::advance(IslandState& state, double time, double accuracy,
+                            const Surroundings& world, const TrialPoses& trial,
+                            AccuracyReport& report) {
+  const double allowed = kShareOfStep * accuracy;
+  state_ = state;
+  step_.set(state_, world, trial);
+  for (double left = time; left > 0;) {
+    const double whole = choice_.next(left, time);
+    const int columns = choice_.columns();
+    if (whole < kLeastPart * time) return choice_.forget(), false;
+    tolerance_ = step_.size() * std::max(kFinest, kClosed * allowed / (columns * columns));
+    double error = std::numeric_limits<double>::infinity(), coarser = error;  // and of one less
+    tableau_.clear(turns_.size());
+    for (int j = 1; j <= columns && run(j, whole, world, trial); ++j) {
+      coarser = error;
+      if (j > 1) error = tableau_.difference(step_.size(), whole, turns_);
+    }
+    const bool isDone = tableau_.rows() == columns;
+    if (!isDone || !(error <= allowed)) {
+      ++report.rejected;
+      choice_.reject(whole, isDone ? error : std::numeric_limits<double>::infinity(), allowed);
+      continue;
+    }
+    tableau_.best(state_.pose, state_.velocity);
+    if (!step_.project(state_, tolerance_, world, trial)) return choice_.forget(), false;
+    state_ = step_.state();
+    ++report.accepted;
+    report.order = std::max(report.order, 2 * columns);
+    report.least = report.least > 0 ? std::min(report.least, whole) : whole;
+    report.estimate += error;
+    left = whole == left ? 0 : left - whole;
+    choice_.accept(whole, error, coarser, allowed, time);
+  }
+  state = state_;
+  return true;
+}
+
+bool Extrapolation::advanceBy(IslandState& state, double time, int columns, int steps,
+                              const Surroundings& world, const TrialPoses& trial) {
+  state_ = state;
+  step_.set(state_, world, trial);
+  tolerance_ = kFinest * step_.size();
+  for (int s = 0; s < steps; ++s) {
+    tableau_.clear(turns_.size());
+    for (int j = 1; j <= columns; ++j) {
+      if (!run(j, time / steps, world, trial)) return false;
+    }
+    tableau_.best(state_.pose, state_.velocity);
+    step_.project(state_, tolerance_, world, trial);
+    state_ = step_.state();
+  }
+  state = state_;
+  return true;
+}
+
+}  // namespace physics

@@ -1,0 +1,41 @@
+// An island to a given time, as accurately as asked: steps H by extrapolation of the symmetric
+// step, whose error has even powers of h only, so that T_kk of tableau.h, in 1, 2, ... k steps, is
+// of order 2k. What T_kk and T_k,k-1 differ by is the estimate of the error; H and k follow from it
+// at the least work for the time. Hairer, Norsett, Wanner, Solving Ordinary Differential Equations
+// I, II.9.
+#pragma once
+
+#include "physics/accurate/step_choice.h"
+#include "physics/accurate/symmetric_step.h"
+#include "physics/accurate/tableau.h"
+#include "physics/model/report.h"
+
+namespace physics {
+
+class Extrapolation {
+ public:
+  static constexpr int kMostColumns = 5;  // order 10
+
+  explicit Extrapolation(SymmetricStep step);
+
+  const SymmetricStep& step() const { return step_; }
+  // From `state` by `time`, right to `accuracy` of the island's size and to so many rad. False:
+  // out of reach; `state` is as before.
+  bool advance(IslandState& state, double time, double accuracy, const Surroundings& world,
+               const TrialPoses& trial, AccuracyReport& report);
+  // The same with a given order 2k and steps.
+  bool advanceBy(IslandState& state, double time, int columns, int steps, const Surroundings& world,
+                 const TrialPoses& trial);
+
+ private:
+  bool run(int n, double whole, const Surroundings& world, const TrialPoses& trial);
+
+  SymmetricStep step_;
+  Tableau tableau_;
+  std::vector<char> turns_;  // by body
+  IslandState state_;
+  StepChoice choice_{2, 2, kMostColumns};
+  double tolerance_ = 0;  // that joints close to
+};
+
+}  // namespace physics

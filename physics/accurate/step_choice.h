@@ -1,0 +1,35 @@
+// The next step H and the number k of columns of its tableau, at the least work for the time: what
+// T_kk and T_k,k-1 differ by goes with H^(p (k - 1) + 1), where the error has powers of h^p.
+// Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9.
+#pragma once
+
+namespace physics {
+
+// A step may err by this part of the accuracy: errors add up, and grow with the motion.
+inline constexpr double kShareOfStep = 0.01;
+
+class StepChoice {
+ public:
+  // With no fewer than `least` columns, and no more than `most`.
+  StepChoice(int power, int least, int most)
+      : power_(power), least_(least), most_(most), columns_(least) {}
+
+  int columns() const { return columns_; }
+  // Of what is left of `time`.
+  double next(double left, double time);
+  // A step that errs by too much; an infinite error is one that failed.
+  void reject(double step, double error, double allowed);
+  // `coarser`: the error of one column less.
+  void accept(double step, double error, double coarser, double allowed, double time);
+  void forget() { wanted_ = 0; }
+
+ private:
+  double stepFor(double step, double error, int columns, double allowed) const;
+  int power_, least_, most_, columns_;
+  double wanted_ = 0;  // [s]; 0: not known
+};
+
+// The n-th root of 0 < x, the same on every machine.
+double rootOf(double x, int n);
+
+}  // namespace physics

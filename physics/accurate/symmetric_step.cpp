@@ -1,0 +1,432 @@
+// The symmetric step.
+#include "physics/accurate/symmetric_step.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "physics/base/rotation.h"
+#include "physics/bodies/shape.h"
+
+namespace physics {
+namespace {
+
+constexpr int kMostIterations = 16;
+
+Pose middleOf(const Pose& from, const Pose& to) {
+  return {0.5 * (from.x + to.x), exponential(0.5 * logarithm(to.q * from.q.conjugate())) * from.q};
+}
+
+void takeRow(const JointRow& row, IslandRow& to) {
+  for (int b = 0; b < JointRow::kMostBodies; ++b) {
+    to.linear[b] = row.linear[b];
+    to.angular[b] = row.angular[b];
+  }
+}
+
+void clear(JointRow& row) {
+  row.c.setZero();
+  for (int b = 0; b < JointRow::kMostBodies; ++b) {
+    row.linear[b].setZero();
+    row.angular[b].setZero();
+    row.arm[b].setZero();
+  }
+}
+
+std::vector<BodyId> bodiesOf(std::span<const JointRef> refs, std::span<const BodyId> moving,
+                             const Kinds& kinds) {
+  std::vector<BodyId> all(moving.begin(), moving.end());
+  for (const JointRef ref : refs) {
+    const JointKind kind = kindOf(kinds, ref);
+    all.insert(all.end(), kind.bodies.begin(), kind.bodies.begin() + kind.bodyCount);
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace
+
+bool SymmetricStep::takes(std::span<const JointRef> refs, const Surroundings& world) {
+  return std::all_of(refs.begin(), refs.end(), [&](const JointRef ref) {
+    const JointKind kind = kindOf(world.kinds, ref);
+    if (kind.rows == 0 || kind.regularisation > 0 || natureOf(world.kinds, ref) == Nature::kOther) {
+      return false;
+    }
+    for (int b = 0; b < kind.bodyCount; ++b) {
+      if (world.bodies.motion[kind.bodies[b]] == Motion::kKinematic) return false;
+    }
+    return true;
+  });
+}
+
+SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const BodyId> moving,
+                             const Surroundings& world, JointTopologies& known)
+    : bodies_(bodiesOf(refs, moving, world.kinds)) {
+  std::vector<JointRef> solved;
+  for (const JointRef ref : refs) {
+    (natureOf(world.kinds, ref) == Nature::kOneSided ? limits_ : solved).push_back(ref);
+  }
+  std::vector<JointKind> kinds;
+  for (const JointRef ref : solved) kinds.push_back(kindOf(world.kinds, ref));
+  topology_ = topologyOf(solved, kinds, bodies_, world.bodies.inverse, known);
+  for (const int i : topology_->order) {
+    refs_.push_back(solved[i]);
+    isForce_.push_back(natureOf(world.kinds, solved[i]) == Nature::kForce);
+    hasForces_ = hasForces_ || isForce_.back();
+  }
+  for (const BodyId i : bodies_) {
+    moves_.push_back(world.bodies.motion[i] == Motion::kDynamic);
+    inertia_.push_back(world.bodies.inertia[i]);
+    inverseInertia_.push_back(world.bodies.inverseInertia[i]);
+  }
+  const std::size_t rows = refs_.size(), size = bodies_.size();
+  present_.joints = RowSystem(topology_);
+  all_ = RowSystem(topology_);
+  present_.rows.resize(rows);
+  present_.pulls.resize(rows);
+  present_.inverse.resize(size);
+  ahead_.resize(rows);
+  for (std::size_t i = 0; i < rows; ++i) present_.rows[i].solved = ahead_[i].solved = !isForce_[i];
+  for (auto* list : {&error_, &lambda_}) list->assign(rows, Vec3::Zero());
+  for (auto* list : {&shift_, &twist_, &momentum_}) list->assign(size, Vec3::Zero());
+}
+
+void SymmetricStep::put(const IslandState& state, std::span<Pose> to) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) to[bodies_[i]] = state.pose[i];
+}
+
+// M^-1 where the island is.
+void SymmetricStep::turnInertia() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    BodyInverse& body = present_.inverse[i];
+    if (!turns(i)) continue;
+    const Vec3& principal = inverseInertia_[i];
+    if (isIsotropic(inertia_[i])) {
+      body.inertia = principal.x() * Mat3::Identity();
+      continue;
+    }
+    const Mat3 r = present_.state.pose[i].q.toRotationMatrix(), scaled = r * principal.asDiagonal();
+    body.inertia = scaled * r.transpose();
+  }
+}
+
+// c and J of the joints, at `now`.
+void SymmetricStep::lookAt(std::span<const Pose> now, const TrialPoses& trial,
+                           const Surroundings& world, double h) {
+  JointRow row;
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    if (isForce_[i]) continue;
+    clear(row);
+    evaluateRow(world.kinds, refs_[i], {now, trial.start, h}, row);
+    error_[i] = row.c;
+    takeRow(row, ahead_[i]);
+  }
+}
+
+// Of forces, halfway: K^-1 (lambda / 2 - f), and J. What does not fall off is given.
+void SymmetricStep::lookAtForces(const Surroundings& world, const TrialPoses& trial, double h) {
+  if (!hasForces_) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    trial.now[bodies_[i]] = middleOf(present_.state.pose[i], to_.pose[i]);
+  }
+  JointRow row;
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    if (!isForce_[i]) continue;
+    clear(row);
+    evaluateRow(world.kinds, refs_[i], {trial.now, trial.start, 0.5 * h, {}, {}, trial.end}, row);
+    IslandRow& to = present_.rows[i];
+    takeRow(row, to);
+    to.solved = row.active && row.role == JointRow::Role::kForce;
+    error_[i].setZero();
+    if (to.solved) {
+      to.alpha = row.alpha;
+      error_[i] = row.alpha * lambda_[i] + 2 * row.c;
+    } else {
+      lambda_[i] = row.active ? (2 * row.c).eval() : Vec3::Zero();
+    }
+  }
+}
+
+// What joints pulled with goes on changing as it did.
+void SymmetricStep::guess(double h) {
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    const Pull& pull = present_.pulls[i];
+    const double further = present_.h > 0 ? h / present_.h : 0;
+    lambda_[i] = h * h * (pull.next + further * pull.change);
+  }
+}
+
+// What lambda gives to bodies.
+void SymmetricStep::sum() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    shift_[i].setZero();
+    twist_[i].setZero();
+  }
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    const JointShape& shape = topology_->shapes[i];
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (!shape.moves[b]) continue;
+      const int body = shape.body[b];
+      shift_[body] +=
+          present_.inverse[body].mass * (present_.rows[i].linear[b].transpose() * lambda_[i]);
+      twist_[body] += present_.rows[i].angular[b].transpose() * lambda_[i];
+    }
+  }
+}
+
+Vec3 SymmetricStep::momentumOf(std::size_t i) const {
+  const Quat& q = present_.state.pose[i].q;
+  return q * inertia_[i].cwiseProduct(q.conjugate() * present_.state.velocity[i].w);
+}
+
+// To the end of the step, by lambda.
+void SymmetricStep::move(double h, const Surroundings& world) {
+  const IslandState& from = present_.state;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!moves_[i]) continue;
+    const Load& load = world.loads[bodies_[i]];
+    const Vec3 pull = world.gravity + present_.inverse[i].mass * load.force;
+    to_.pose[i].x = from.pose[i].x + h * (from.velocity[i].v + 0.5 * h * pull) + shift_[i];
+    if (!turns(i)) continue;
+    momentum_[i] = momentumOf(i) + 0.5 * h * load.torque + twist_[i] / h;
+    const Quat& q = from.pose[i].q;
+    const Vec3 omega = inverseInertia_[i].cwiseProduct(q.conjugate() * momentum_[i]);
+    const Vec3 mean = isIsotropic(inertia_[i]) ? omega : freeTurn(inertia_[i], omega, h).mean;
+    to_.pose[i].q = (exponential(h * (q * mean)) * q).normalized();
+  }
+}
+
+// A spring of w h > 1 is not resolved: of a stiff one steps of different length may agree on what
+// is not its motion, and where they do not, what is extrapolated grows.
+bool SymmetricStep::resolvesForces() const {
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    const IslandRow& row = present_.rows[i];
+    if (!isForce_[i] || !row.solved) continue;
+    const JointShape& shape = topology_->shapes[i];
+    Mat3 a = Mat3::Zero();
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (!shape.moves[b]) continue;
+      const BodyInverse& body = present_.inverse[shape.body[b]];
+      a += body.mass * (row.linear[b] * row.linear[b].transpose()) +
+           row.angular[b] * (body.inertia * row.angular[b].transpose());
+    }
+    // alpha^-1 is K (h/2)^2, of which A takes (w h/2)^2.
+    double compliance = 0, moves = 0;
+    for (int r = 0; r < shape.rows; ++r) compliance += row.alpha(r, r), moves += a(r, r);
+    if (4 * moves > compliance) return false;
+  }
+  return true;
+}
+
+// Newton's iteration with the factor of the start.
+bool SymmetricStep::close(double h, double tolerance, const Surroundings& world,
+                          const TrialPoses& trial) {
+  const RowSystem* factor = &present_.joints;
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kMostIterations; ++k) {
+    sum();
+    move(h, world);
+    put(to_, trial.end);
+    lookAt(trial.end, trial, world, h);
+    lookAtForces(world, trial, h);
+    double most = 0;
+    for (const Vec3& error : error_) most = std::max(most, error.cwiseAbs().maxCoeff());
+    if (!(most < std::numeric_limits<double>::infinity())) return false;
+    if (most <= tolerance && (k > 0 || !hasForces_)) return true;
+    if (k > 3 && most > 0.5 * last) return most <= 10 * tolerance;
+    last = most;
+    if (k == 0 && !resolvesForces()) return false;
+    if (hasForces_ && k < 2) {
+      all_.factorize(present_.rows, present_.inverse);
+      factor = &all_;
+    }
+    for (Vec3& error : error_) error = -error;
+    factor->solve(error_);
+    for (std::size_t i = 0; i < refs_.size(); ++i) {
+      if (present_.rows[i].solved) lambda_[i] += error_[i];
+    }
+  }
+  return false;
+}
+
+// Velocities at the end: what is halfway, and the other half.
+void SymmetricStep::finish(double h, const Surroundings& world) {
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    present_.pulls[i].next = lambda_[i] / (h * h);
+  }
+  IslandState& state = present_.state;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!moves_[i]) continue;
+    const Load& load = world.loads[bodies_[i]];
+    const Vec3 pull = world.gravity + present_.inverse[i].mass * load.force;
+    state.velocity[i].v = (to_.pose[i].x - state.pose[i].x) / h + 0.5 * h * pull;
+    if (turns(i)) momentum_[i] += 0.5 * h * load.torque;
+  }
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    if (!isForce_[i]) continue;
+    const JointShape& shape = topology_->shapes[i];
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (!shape.moves[b]) continue;
+      const int body = shape.body[b];
+      const IslandRow& row = present_.rows[i];
+      state.velocity[body].v +=
+          present_.inverse[body].mass / h * (row.linear[b].transpose() * lambda_[i]);
+      momentum_[body] += row.angular[b].transpose() * lambda_[i] / h;
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!moves_[i]) continue;
+    state.pose[i] = to_.pose[i];
+    if (!turns(i)) continue;
+    const Quat& q = state.pose[i].q;
+    state.velocity[i].w = q * inverseInertia_[i].cwiseProduct(q.conjugate() * momentum_[i]);
+  }
+}
+
+// Takes the velocities that open joints, by rows and inertia where the island now is.
+void SymmetricStep::stop(double h) {
+  if (refs_.empty()) return;
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    if (!isForce_[i]) {
+      std::swap(present_.rows[i], ahead_[i]);
+    } else {
+      present_.rows[i].solved = false;
+    }
+  }
+  present_.joints.factorize(present_.rows, present_.inverse);
+  std::vector<Velocity>& velocity = present_.state.velocity;
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    error_[i].setZero();
+    if (isForce_[i]) continue;
+    const JointShape& shape = topology_->shapes[i];
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (!shape.moves[b]) continue;
+      const Velocity& v = velocity[shape.body[b]];
+      error_[i] -= present_.rows[i].linear[b] * v.v + present_.rows[i].angular[b] * v.w;
+    }
+  }
+  present_.joints.solve(error_);
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    if (isForce_[i]) continue;
+    const JointShape& shape = topology_->shapes[i];
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (!shape.moves[b]) continue;
+      const BodyInverse& inverse = present_.inverse[shape.body[b]];
+      Velocity& v = velocity[shape.body[b]];
+      v.v += inverse.mass * (present_.rows[i].linear[b].transpose() * error_[i]);
+      v.w += inverse.inertia * (present_.rows[i].angular[b].transpose() * error_[i]);
+    }
+    if (h > 0) {
+      // lambda is the force a third of a step after its start, mu that a third before its end.
+      Pull& pull = present_.pulls[i];
+      const Vec3 end = error_[i] / h;
+      pull.change = 2 * (end - pull.next);
+      pull.next = end;
+    }
+  }
+  if (h > 0) present_.h = h;
+}
+
+bool SymmetricStep::meetsLimit(const Surroundings& world, const TrialPoses& trial) const {
+  JointRow row;
+  for (const JointRef ref : limits_) {
+    clear(row);
+    evaluateRow(world.kinds, ref, {trial.end, trial.start, 1}, row);
+    if (row.active && ((row.high == 0 && row.c[0] > 0) || (row.low == 0 && row.c[0] < 0))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void SymmetricStep::put(const IslandState& state, const Surroundings& world,
+                        const TrialPoses& trial) {
+  present_.state = to_ = state;
+  for (const std::span<Pose> poses : {trial.now, trial.start, trial.end}) put(state, poses);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    present_.inverse[i].mass = moves_[i] ? 1 / world.bodies.mass[bodies_[i]] : 0;
+  }
+  turnInertia();
+  lookAt(trial.start, trial, world, 1);
+}
+
+void SymmetricStep::set(const IslandState& state, const Surroundings& world,
+                        const TrialPoses& trial) {
+  put(state, world, trial);
+  stop(0);
+  measure(world, trial);
+  first_ = present_;
+}
+
+void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  const auto reach = [&](const Vec3& x) { low = low.cwiseMin(x), high = high.cwiseMax(x); };
+  JointRow row;
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    const JointShape& shape = topology_->shapes[i];
+    if (!shape.pulls) continue;
+    clear(row);
+    evaluateRow(world.kinds, refs_[i], {trial.start, trial.start, 1}, row);
+    for (int b = 0; row.active && b < shape.bodyCount; ++b) {
+      reach(trial.start[bodies_[shape.body[b]]].x + row.arm[b]);
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!moves_[i]) continue;
+    reach(trial.start[bodies_[i]].x);
+    size_ = std::max(size_, boundingRadius(world.bodies.shape[bodies_[i]]));
+  }
+  size_ = std::max(size_, (high - low).norm());
+}
+
+bool SymmetricStep::project(const IslandState& state, double tolerance, const Surroundings& world,
+                            const TrialPoses& trial) {
+  put(state, world, trial);
+  for (std::size_t i = 0; i < refs_.size(); ++i) {
+    if (!isForce_[i]) present_.rows[i] = ahead_[i];
+    present_.rows[i].solved = !isForce_[i];
+  }
+  if (!refs_.empty()) present_.joints.factorize(present_.rows, present_.inverse);
+  bool closed = false;
+  for (int k = 0; k < kMostIterations && !closed; ++k) {
+    double most = 0;
+    for (std::size_t i = 0; i < refs_.size(); ++i) {
+      if (isForce_[i]) error_[i].setZero();
+      most = std::max(most, error_[i].cwiseAbs().maxCoeff());
+      lambda_[i] = -error_[i];
+    }
+    closed = most <= tolerance;
+    if (closed) break;
+    present_.joints.solve(lambda_);
+    sum();
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (!moves_[i]) continue;
+      displace(to_.pose[i], shift_[i], present_.inverse[i].inertia * twist_[i]);
+      to_.pose[i].q.normalize();
+    }
+    put(to_, trial.start);
+    lookAt(trial.start, trial, world, 1);
+  }
+  present_.state = to_;
+  put(to_, trial.end);
+  put(to_, trial.now);
+  turnInertia();
+  stop(0);
+  first_ = present_;
+  return closed;
+}
+
+void SymmetricStep::restart() { present_ = first_; }
+
+bool SymmetricStep::step(double h, double tolerance, const Surroundings& world,
+                         const TrialPoses& trial) {
+  put(present_.state, trial.start);
+  guess(h);
+  if (!close(h, tolerance, world, trial) || meetsLimit(world, trial)) return false;
+  finish(h, world);
+  turnInertia();
+  stop(h);
+  return true;
+}
+
+}  // namespace physics

@@ -1,0 +1,111 @@
+// A step of an island that joints hold and forces push, symmetric in time, so that its error has
+// even powers of h only:
+//   X' = X + h V + h^2/2 M^-1 (f + J^T lambda),   c(X') = 0,   J of the joints at X
+//   V' = V + h M^-1 (f + (J^T lambda + J'^T mu)/2),   J' V' = 0                        RATTLE
+// f at the middle of X and X', so that stiff springs are stable at any h; bodies turn between
+// impulses by the trapezoidal rule for their momentum, motion/free_motion.h. Here lambda and mu are
+// displacements: h^2/2 times the forces of (2).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/accurate/row_system.h"
+#include "physics/motion/free_motion.h"
+#include "physics/solver/joint_row.h"
+
+namespace physics {
+
+struct IslandState {  // by place in SymmetricStep::bodies()
+  std::vector<Pose> pose;
+  std::vector<Velocity> velocity;
+};
+
+// Poses by BodyId that rows are evaluated at. Bodies of other islands stand where they are.
+struct TrialPoses {
+  std::span<Pose> now, start, end;
+};
+
+// What the world does to bodies, by BodyId.
+struct Surroundings {
+  const Kinds& kinds;
+  const Bodies& bodies;
+  std::span<const Load> loads;
+  Vec3 gravity = Vec3::Zero();
+};
+
+class SymmetricStep {
+ public:
+  // Of `refs` and the bodies that move in it.
+  SymmetricStep(std::span<const JointRef> refs, std::span<const BodyId> moving,
+                const Surroundings& world, JointTopologies& known);
+
+  // False: some are not smooth, or of more than two bodies, or of one that moves by itself.
+  static bool takes(std::span<const JointRef> refs, const Surroundings& world);
+
+  std::span<const BodyId> bodies() const { return bodies_; }
+  bool moves(std::size_t place) const { return moves_[place]; }
+  bool turns(std::size_t place) const { return moves_[place] && !inverseInertia_[place].isZero(0); }
+  double size() const { return size_; }  // m: the largest extent that the island has had
+
+  // Puts the island into a state: rows and factor there.
+  void set(const IslandState& state, const Surroundings& world, const TrialPoses& trial);
+  const IslandState& state() const { return present_.state; }
+  // Back to the state of the last `set`.
+  void restart();
+  // From where it is by h, joints closed to `tolerance` [m, rad]. False: they do not close, or a
+  // limit is met.
+  bool step(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
+  // To a state near the present one: joints closed, and no velocity that opens them. It is then as
+  // after `set`.
+  bool project(const IslandState& state, double tolerance, const Surroundings& world,
+               const TrialPoses& trial);
+
+ private:
+  // What tells of a joint's force, as its lambda in steps of one second.
+  struct Pull {
+    Vec3 next = Vec3::Zero(), change = Vec3::Zero();
+  };
+  // All that a step changes.
+  struct Present {
+    IslandState state;
+    std::vector<IslandRow> rows;
+    std::vector<BodyInverse> inverse;
+    std::vector<Pull> pulls;
+    RowSystem joints;
+    double h = 0;  // of the last step
+  };
+  void put(const IslandState& state, std::span<Pose> to) const;
+  void put(const IslandState& state, const Surroundings& world, const TrialPoses& trial);
+  void measure(const Surroundings& world, const TrialPoses& trial);
+  void turnInertia();
+  void lookAt(std::span<const Pose> now, const TrialPoses& trial, const Surroundings& world,
+              double h);
+  void lookAtForces(const Surroundings& world, const TrialPoses& trial, double h);
+  void guess(double h);
+  void sum();
+  void move(double h, const Surroundings& world);
+  bool resolvesForces() const;
+  bool close(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
+  void finish(double h, const Surroundings& world);
+  void stop(double h);
+  bool meetsLimit(const Surroundings& world, const TrialPoses& trial) const;
+  Vec3 momentumOf(std::size_t body) const;
+
+  std::vector<BodyId> bodies_;
+  std::vector<bool> moves_;
+  std::vector<Vec3> inertia_, inverseInertia_;  // principal
+  double size_ = 0;
+  std::vector<JointRef> refs_, limits_;  // refs_ in the order of elimination
+  std::vector<bool> isForce_;
+  bool hasForces_ = false;
+  std::shared_ptr<const JointTopology> topology_;
+  Present present_, first_;
+  RowSystem all_;  // with the forces
+  std::vector<Vec3> error_, lambda_;
+  std::vector<IslandRow> ahead_;  // of joints, where the step ends
+  IslandState to_;
+  std::vector<Vec3> shift_, twist_, momentum_;  // of impulses [m, kg m^2], and halfway
+};
+
+}  // namespace physics

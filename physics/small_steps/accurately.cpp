@@ -1,0 +1,191 @@
+// Islands that step by an accuracy.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+namespace {
+
+Surroundings surroundingsOf(const Model& w) {
+  return {w.kinds, w.bodies, w.loads, w.settings.gravity.value_or(Vec3::Zero())};
+}
+
+void add(const AccuracyReport& of, AccuracyReport& to) {
+  to.accepted += of.accepted;
+  to.rejected += of.rejected;
+  to.order = std::max(to.order, of.order);
+  to.least = to.least > 0 && of.least > 0 ? std::min(to.least, of.least) : to.least + of.least;
+  to.estimate = std::max(to.estimate, of.estimate);
+}
+
+}  // namespace
+
+// `rows`: what joins and pushes, by first body of its island.
+void SmallSteps::Impl::learnAccurate(const Model& w,
+                                     const std::vector<std::vector<JointRef>>& rows) {
+  accurate.clear();
+  accurateOf.assign(w.bodies.pose.size(), -1);
+  if (!w.settings.accuracy) return;
+  std::vector<std::vector<BodyId>> members(rows.size());
+  for (BodyId i = 0; i < w.bodies.size(); ++i) {
+    if (w.bodies.motion[i] == Motion::kDynamic) members[w.joined[i]].push_back(i);
+  }
+  const Surroundings world = surroundingsOf(w);
+  for (BodyId root = 0; root < w.bodies.size(); ++root) {
+    const auto& bodies = members[root];
+    if (bodies.empty() || !SymmetricStep::takes(rows[root], world)) continue;
+    const bool isRound =
+        w.bodies.inverseInertia[root].isZero(0) || isIsotropic(w.bodies.inertia[root]);
+    if (rows[root].empty() && isRound) continue;  // it flies exactly
+    const auto isSoft = [&](BodyId i) { return !w.bodies.isSoft.empty() && w.bodies.isSoft[i]; };
+    if (std::any_of(bodies.begin(), bodies.end(), isSoft)) continue;
+    accurateOf[root] = static_cast<int>(accurate.size());
+    Extrapolation motion(SymmetricStep(rows[root], bodies, world, topologies));
+    IslandState state;
+    state.pose.resize(motion.step().bodies().size());
+    state.velocity.resize(state.pose.size());
+    accurate.push_back({std::move(motion), std::move(state)});
+  }
+  trialNow = trialStart = trialEnd = w.bodies.pose;
+}
+
+// False: nothing is changed.
+bool SmallSteps::Impl::advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report) {
+  if (accurate.empty() || accurateOf[root] < 0) return false;
+  Accurate& island = accurate[accurateOf[root]];
+  const auto bodies = island.motion.step().bodies();
+  Bodies& b = w.bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    island.state.pose[i] = b.pose[bodies[i]];
+    island.state.velocity[i] = b.velocity[bodies[i]];
+  }
+  AccuracyReport of;
+  if (!island.motion.advance(island.state, dt, *w.settings.accuracy, surroundingsOf(w),
+                             {trialNow, trialStart, trialEnd}, of)) {
+    return false;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!island.motion.step().moves(i)) continue;
+    b.start[bodies[i]] = b.pose[bodies[i]];
+    b.pose[bodies[i]] = island.state.pose[i];
+    b.velocity[bodies[i]] = island.state.velocity[i];
+  }
+  add(of, report);
+  return true;
+}
+
+// Where nothing bounces: a bounce has a time of its own within a substep.
+bool SmallSteps::Impl::stepsAccurately(const Model& w, const Batch& batch) const {
+  return w.settings.accuracy && batch.touches && w.settings.contact->restitution == 0 &&
+         batch.deformables.empty() && batch.softPairs.empty();
+}
+
+// The largest extent of what moves [m].
+double SmallSteps::Impl::sizeOf(const Bodies& b, const Batch& batch) const {
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const BodyId i : batch.bodies) {
+    low = low.cwiseMin(b.pose[i].x - Vec3::Constant(radius[i]));
+    high = high.cwiseMax(b.pose[i].x + Vec3::Constant(radius[i]));
+  }
+  return (high - low).norm();
+}
+
+void SmallSteps::Impl::keepStart(const Bodies& b, const Batch& batch) {
+  const std::size_t size = batch.bodies.size();
+  trial.fromPose.resize(size);
+  trial.fromVelocity.resize(size);
+  trial.fromSpin.resize(size);
+  for (std::size_t k = 0; k < size; ++k) {
+    const BodyId i = batch.bodies[k];
+    trial.fromPose[k] = b.pose[i];
+    trial.fromVelocity[k] = b.velocity[i];
+    trial.fromSpin[k] = meanSpins[i];
+  }
+}
+
+void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    const BodyId i = batch.bodies[k];
+    b.pose[i] = trial.fromPose[k];
+    b.velocity[i] = trial.fromVelocity[k];
+    meanSpins[i] = trial.fromSpin[k];
+  }
+}
+
+// From where `trial` was kept, in so many substeps, to the next row of its tableau.
+void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report) {
+  goBack(w.bodies, batch);
+  run(w, batch, whole / steps, steps, report);
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    trial.pose[k] = w.bodies.pose[batch.bodies[k]];
+    trial.velocity[k] = w.bodies.velocity[batch.bodies[k]];
+  }
+  trial.tableau.add(steps, 1, trial.pose, trial.velocity);
+}
+
+// An island that touches, by the substeps of the default: their error has all powers of h while
+// nothing comes into touch or leaves it, and the steps are divided about where something does.
+// Where that is in many places at once no step resolves it: it goes on by the default, and the
+// estimate tells.
+void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int count,
+                                         StepReport& report) {
+  // Contacts are in single precision: displacements are no better known than by this part.
+  constexpr double kKnown = 1e-5;
+  constexpr double kLeastPart = 1.0 / 1024;
+  constexpr int kMostPlaces = 4;
+  constexpr double kPlain = 0.1;  // what rests is left to rest: its end is that of the substeps
+  const std::size_t size = batch.bodies.size();
+  const double extent = sizeOf(w.bodies, batch);
+  const double allowed = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
+  StepChoice& choice = choices[batch.bodies.front()];
+  trial.turns.resize(size);
+  trial.pose.resize(size);
+  trial.velocity.resize(size);
+  for (std::size_t k = 0; k < size; ++k) {
+    trial.turns[k] = !w.bodies.inverseInertia[batch.bodies[k]].isZero(0);
+  }
+  AccuracyReport told;
+  for (double left = dt; left > 0;) {
+    const double whole = std::min(std::max(choice.next(left, dt), kLeastPart * dt), left);
+    const int columns = choice.columns();
+    const int most = std::max(columns, static_cast<int>(std::ceil(count * whole / dt)));
+    double error = std::numeric_limits<double>::infinity(), coarser = error;
+    int places = 0;
+    keepStart(w.bodies, batch);
+    trial.tableau.clear(size);
+    for (int j = 1; j <= columns; ++j) {
+      tryOut(w, batch, whole, (most * j + columns - 1) / columns, report);
+      coarser = error;
+      if (j > 1) error = trial.tableau.difference(extent, whole, trial.turns, allowed, &places);
+    }
+    const bool isSmall = error <= allowed;
+    if (!isSmall && whole > kLeastPart * dt && places <= kMostPlaces) {
+      ++told.rejected;
+      goBack(w.bodies, batch);
+      choice.reject(whole, error, allowed);
+      continue;
+    }
+    if (isSmall) {
+      if (trial.tableau.gain(extent, whole, trial.turns) > kPlain * allowed) {
+        trial.tableau.best(trial.pose, trial.velocity);
+        for (std::size_t k = 0; k < size; ++k) {
+          w.bodies.pose[batch.bodies[k]] = trial.pose[k];
+          w.bodies.velocity[batch.bodies[k]] = trial.velocity[k];
+        }
+      }
+      choice.accept(whole, error, coarser, allowed, dt);
+      told.order = std::max(told.order, columns);
+    }
+    takeOver(w, batch, whole / most);
+    batch.joints.finish(w.kinds, whole / most);
+    ++told.accepted;
+    told.least = told.least > 0 ? std::min(told.least, whole) : whole;
+    told.estimate += error;
+    left = whole == left ? 0 : left - whole;
+  }
+  add(told, report.accuracy);
+}
+
+}  // namespace physics
