@@ -16,12 +16,14 @@ struct LawWord {
   SubstepLaw law;
   const char *word, *text;
 };
-constexpr LawWord kLaws[] = {{SubstepLaw::kLeast, "least", " (the least)"},
-                             {SubstepLaw::kSag, "sag", " (sag of contacts)"},
-                             {SubstepLaw::kOverlap, "overlap", " (overlap of points)"},
-                             {SubstepLaw::kStrain, "strain", " (strain of the mesh)"},
-                             {SubstepLaw::kTurn, "turn", " (turn in a substep)"},
-                             {SubstepLaw::kApproach, "approach", " (speed of approach)"}};
+constexpr LawWord kLaws[] = {
+    {SubstepLaw::kLeast, "least", " (the least)"},
+    {SubstepLaw::kSag, "sag", " (sag of contacts)"},
+    {SubstepLaw::kOverlap, "overlap", " (overlap of points)"},
+    {SubstepLaw::kStrain, "strain", " (strain of the mesh)"},
+    {SubstepLaw::kTurn, "turn", " (turn in a substep)"},
+    {SubstepLaw::kApproach, "approach", " (speed of approach)"},
+    {SubstepLaw::kOpened, "opened", " (joints that half could not close)"}};
 
 const LawWord& wordsOf(SubstepLaw law) {
   for (const LawWord& words : kLaws) {

@@ -92,29 +92,16 @@ double SmallSteps::Impl::sizeOf(const Bodies& b, const Batch& batch) const {
   return (high - low).norm();
 }
 
-void SmallSteps::Impl::keepStart(const Bodies& b, const Batch& batch) {
-  const std::size_t size = batch.bodies.size();
-  trial.fromPose.resize(size);
-  trial.fromVelocity.resize(size);
-  trial.fromSpin.resize(size);
-  for (std::size_t k = 0; k < size; ++k) {
-    const BodyId i = batch.bodies[k];
-    trial.fromPose[k] = b.pose[i];
-    trial.fromVelocity[k] = b.velocity[i];
-    trial.fromSpin[k] = meanSpins[i];
-  }
-}
-
 void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
     const BodyId i = batch.bodies[k];
-    b.pose[i] = trial.fromPose[k];
-    b.velocity[i] = trial.fromVelocity[k];
-    meanSpins[i] = trial.fromSpin[k];
+    b.pose[i] = batch.kept[k].pose;
+    b.velocity[i] = batch.kept[k].velocity;
+    meanSpins[i] = batch.kept[k].meanSpin;
   }
 }
 
-// From where `trial` was kept, in so many substeps, to the next row of its tableau.
+// From where `batch.kept` stands, in so many substeps, to the next row of its tableau.
 void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report) {
   goBack(w.bodies, batch);
   run(w, batch, whole / steps, steps, report);
@@ -153,7 +140,7 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
     const int most = std::max(columns, static_cast<int>(std::ceil(count * whole / dt)));
     double error = std::numeric_limits<double>::infinity(), coarser = error;
     int places = 0;
-    keepStart(w.bodies, batch);
+    keepStart(w, batch);
     trial.tableau.clear(size);
     for (int j = 1; j <= columns; ++j) {
       tryOut(w, batch, whole, (most * j + columns - 1) / columns, report);

@@ -161,6 +161,7 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   askSoft(w, batch);
   weighMotion(w, batch, h);
   weighContacts(w, batch);
+  askFiner(w, batch);
   const bool takeTurns = !batch.articulations.empty() && batch.responders.empty();
   const int most = takeTurns ? kMostJointedSweeps : kMostSweeps;
   for (const BodyId i : batch.bodies) {

@@ -54,6 +54,7 @@ void SmallSteps::Impl::learn(Model& w) {
   deformableOf.assign(w.bodies.pose.size(), -1);
   responding.clear();
   learnAccurate(w, rows);
+  finer.clear();
   for (const BodyId root : roots) {
     const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
     const bool isDirect = mesh.fill <= (mesh.points ? kMostFillOfPoints : kMostFill);
@@ -65,6 +66,7 @@ void SmallSteps::Impl::learn(Model& w) {
     } else {
       articulations.emplace_back(rows[root], w.kinds, w.bodies.inverse, topologies);
       responding.push_back(0);
+      finer.push_back(0);
       for (const BodyId i : articulations.back().bodies()) {
         articulationOf[i] = static_cast<int>(articulations.size()) - 1;
       }
@@ -124,6 +126,7 @@ SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, int count, int swe
   batch.substeps = count;
   batch.sweeps = sweepCount;
   batch.touches = touches;
+  batch.isAgain = false;
   return batch;
 }
 

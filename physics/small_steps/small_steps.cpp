@@ -27,6 +27,7 @@ void SmallSteps::forget() {
   std::fill(impl_->asked.begin(), impl_->asked.end(), 0);
   std::fill(impl_->meanSpins.begin(), impl_->meanSpins.end(), Vec3::Zero());
   std::fill(impl_->askedSweeps.begin(), impl_->askedSweeps.end(), 1);
+  std::fill(impl_->finer.begin(), impl_->finer.end(), 0);
 }
 
 std::size_t SmallSteps::bytes() const {
@@ -70,6 +71,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   weight.resize(bodies);
   energy.resize(bodies);
   held.resize(bodies);
+  opened.resize(bodies);
   change.resize(bodies);
 }
 
@@ -83,10 +85,19 @@ void SmallSteps::Impl::run(Model& w, Batch& batch, double h, int count, StepRepo
     noteApproach(w, batch, h);
     substep(w, batch, h, report);
   }
+  report.work.moves += static_cast<std::int64_t>(batch.bodies.size()) * count;
 }
 
-// Those that step now, one of `parts` of a step: islands, batches, and each batch through its
-// substeps.
+// What it leaves to the next step.
+void SmallSteps::Impl::finish(Model& w, Batch& batch, double h) {
+  takeOver(w, batch, h);
+  ask(w, batch, h);
+  batch.joints.finish(w.kinds, h);
+  for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
+}
+
+// Those that step now, one of `parts` of a step: islands, and batches, to which others are added
+// while they step.
 void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
   const double dt = w.settings.dt / parts;
   divide(w, dt, report.accuracy);
@@ -94,20 +105,19 @@ void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
   fly(w, dt);
   report.work.moves += static_cast<std::int64_t>(free.size());
   for (std::size_t k = 0; k < batchCount; ++k) {
-    Batch& batch = batches[k];
-    const int count = (batch.substeps + parts - 1) / parts;
+    const int count = (batches[k].substeps + parts - 1) / parts;
+    const double h = dt / count;
     report.substeps = std::max(report.substeps, parts * count);
-    layOut(w, batch);
-    if (stepsAccurately(w, batch)) {
-      advanceAccurately(w, batch, dt, count, report);
-    } else {
-      run(w, batch, dt / count, count, report);
-      takeOver(w, batch, dt / count);
-      batch.joints.finish(w.kinds, dt / count);
+    layOut(w, batches[k]);
+    keepStart(w, batches[k]);
+    if (stepsAccurately(w, batches[k])) {
+      advanceAccurately(w, batches[k], dt, count, report);
+      ask(w, batches[k], h);
+      continue;
     }
-    ask(w, batch, dt / count);
-    for (const int d : batch.deformables) deformables[d].finish(w.kinds, dt / count);
-    report.work.moves += static_cast<std::int64_t>(batch.bodies.size()) * count;
+    run(w, batches[k], h, count, report);
+    makeAgain(w, k);
+    finish(w, batches[k], h);
   }
   gatherSoft(w);
   checkFinite(w, report);

@@ -10,6 +10,7 @@
 //   accurately.cpp    islands that step by an accuracy
 //   bounce.cpp        restitution
 //   look.cpp          the contacts of a step, and which islands look for them twice
+//   again.cpp         steps that joints could not be closed in, with more substeps
 //   ask.cpp           how many substeps and sweeps the next step takes
 //   learn.cpp         what contacts carry at the start
 //   small_steps.cpp   the step
@@ -53,6 +54,13 @@ struct LaneStart {
   float u[3] = {}, turn[3] = {};
 };
 
+// Of a body, at the start of its step.
+struct KeptStart {
+  Pose pose;
+  Velocity velocity;
+  Vec3 meanSpin = Vec3::Zero();
+};
+
 // What pays for being dealt to threads.
 constexpr int kLeastBodies = 64, kLeastBlocks = 8;
 
@@ -62,6 +70,7 @@ constexpr int kMostSubsteps = 64;
 struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
   bool touches = false;  // contacts of rigid bodies, in every island of it
+  bool isAgain = false;  // another attempt of what too few substeps took apart
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
   JointPacks joints;                // of these articulations
@@ -75,8 +84,9 @@ struct SmallSteps::Batch {
   std::vector<Responder> responders;  // by slot; empty: none
   std::vector<LaneStart> before;      // of the motions, when the bodies last knew of them
   std::vector<LaneMass> masses;
-  std::vector<BodyId> slots;  // the body of each slot
-  std::vector<char> turned;   // by slot: so far that its rows are to be prepared anew
+  std::vector<BodyId> slots;    // the body of each slot
+  std::vector<KeptStart> kept;  // of `bodies`, where joints may have to make their step again
+  std::vector<char> turned;     // by slot: so far that its rows are to be prepared anew
 
   // More than contacts of rigid bodies.
   bool isMixed() const {
@@ -111,9 +121,8 @@ struct SmallSteps::Impl {
   std::vector<StepChoice> choices;  // by first body of an island that touches
   struct {                          // of the batch that steps accurately
     Tableau tableau;
-    std::vector<Pose> pose, fromPose;
-    std::vector<Velocity> velocity, fromVelocity;
-    std::vector<Vec3> fromSpin;
+    std::vector<Pose> pose;
+    std::vector<Velocity> velocity;
     std::vector<char> turns;
   } trial;
   bool known = false;                 // these are those of the world's constraints
@@ -128,8 +137,10 @@ struct SmallSteps::Impl {
   std::vector<int> batchOf, slotOf;                  // by body
   std::vector<std::uint64_t> colours, coloursFixed;  // by body: taken by its contacts
   std::vector<char> responding;                      // by articulation: contacts see its mass
-  std::vector<int> placeOf;                          // scratch, of a batch's contacts
-  std::vector<Inertia> inertiaOf;                    // by body, of this step
+  std::vector<int> finer;          // by articulation: substeps that its joints ask for, 0: none
+  std::vector<char> opened;        // of an island with joints, by its first body: they came apart
+  std::vector<int> placeOf;        // scratch, of a batch's contacts
+  std::vector<Inertia> inertiaOf;  // by body, of this step
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;
   std::vector<Mat3> stiffness;
@@ -148,7 +159,6 @@ struct SmallSteps::Impl {
   bool stepsAccurately(const Model& w, const Batch& batch) const;
   void advanceAccurately(Model& w, Batch& batch, double dt, int count, StepReport& report);
   double sizeOf(const Bodies& b, const Batch& batch) const;
-  void keepStart(const Bodies& b, const Batch& batch);
   void tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report);
   void goBack(Bodies& b, const Batch& batch);
   void run(Model& w, Batch& batch, double h, int count, StepReport& report);
@@ -218,9 +228,15 @@ struct SmallSteps::Impl {
   void weighContacts(const Model& w, const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
   void askDeformables(Model& w, const Batch& batch, double h);
+  void keepStart(const Model& w, Batch& batch);
+  bool findOpened(const Batch& batch);
+  void moveTo(Model& w, Batch& batch, Batch& again);
+  void makeAgain(Model& w, std::size_t index);
+  void askFiner(const Model& w, const Batch& batch);
   void want(BodyId body, int count, SubstepLaw by);
   void ask(Model& w, const Batch& batch, double h);
   void fly(Model& w, double dt);
+  void finish(Model& w, Batch& batch, double h);
   void advancePart(Model& w, int parts, StepReport& report);
   void advance(Model& w, StepReport& report);
   void learnLoads(Model& w);

@@ -58,6 +58,8 @@ class Articulation {
   bool holdsBothWays() const { return holdsBothWays_; }  // nothing but gaps and axles, at work
   JointResponse& response() { return response_; }        // of bodies that contacts touch
   const JointResponse& response() const { return response_; }
+  bool isOpened() const { return isOpened_; }  // a substep since `take` has taken joints apart
+  void setOpened(bool opened) { isOpened_ = opened; }
   bool hasLoop() const;  // of bodies, all that do not move being one
   void forget();         // what it pulled with in the last substep
 
@@ -76,7 +78,7 @@ class Articulation {
   std::vector<BodyId> all_;     // bodies of its rows, sorted
   std::vector<BodyId> bodies_;  // those of them that move
   std::vector<Pull> pulls_;     // by row
-  bool holdsBothWays_ = false;
+  bool holdsBothWays_ = false, isOpened_ = false;
   JointResponse response_;
 };
 
@@ -125,6 +127,8 @@ class JointPack {
   void see(const JointStage& stage, bool first);
   void noteSeen();
   void step();
+  void noteOpened(const JointStage& stage);
+  bool hasGap(int lane) const;
   double offOf(int lane) const;
   void noteStep(int lane, double off);
   bool goBack();
@@ -192,7 +196,8 @@ class JointPacks {
   void solveVelocities(const JointStage& stage);
   void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
   void respond();                                  // of those that ask: `Articulation::response`
-  void finish(Kinds& kinds, double h);             // multipliers back to the kinds' sets
+  // Multipliers back to the kinds' sets, but of those that are opened.
+  void finish(Kinds& kinds, double h);
 
  private:
   template <class F>

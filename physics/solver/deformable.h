@@ -27,8 +27,9 @@ struct Mesh {
 };
 Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
             std::span<const InverseMass> masses);
-// Of a factor worth having: a net of 10 by 10 has 100. Rows of points are cheap to sweep.
-inline constexpr double kMostFill = 100, kMostFillOfPoints = 16;
+// Of a factor worth having: a net of bodies, 25 by 25, has 192; solved at once it takes as long as
+// swept, and its joints are open by a thousandth. Rows of points are cheap to sweep.
+inline constexpr double kMostFill = 400, kMostFillOfPoints = 16;
 
 // Keeps the factor regular where rows repeat each other: relative to the row's own A.
 inline constexpr double kRedundancy = 1e-7;

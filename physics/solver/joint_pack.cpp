@@ -8,8 +8,9 @@
 namespace physics {
 namespace {
 
-constexpr int kMostRounds = 6;  // of finding which rows are at a bound
-constexpr int kMostSteps = 5;   // of Newton's, after the first
+constexpr int kMostRounds = 6;    // of finding which rows are at a bound
+constexpr int kMostSteps = 5;     // of Newton's, after the first
+constexpr double kOpened = 0.01;  // of its arm: a gap that no joint has
 
 }  // namespace
 
@@ -20,6 +21,7 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
   for (int l = 0; l < W; ++l) of[l] = articulations[l < lanes_ ? l : 0];
   const bool isSame = topology_ == of[0]->topology_ && of == of_;
   of_ = of;
+  for (int l = 0; l < lanes_; ++l) of_[l]->isOpened_ = false;
   ids_.resize(of[0]->all_.size() * W);
   for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = of[i % W]->all_[i / W];
   if (topology_ != of_[0]->topology_) {
@@ -453,6 +455,33 @@ bool JointPack<W>::goBack() {
   return any;
 }
 
+template <int W>
+bool JointPack<W>::hasGap(int l) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!topology_->shapes[i].isGap) continue;
+    const JointLanes<W>& row = rows_[i];
+    const double arm2 =
+        std::max(read(row.arm[0], l).squaredNorm(), read(row.arm[1], l).squaredNorm());
+    const double gap2 = (read(row.c, l) - read(row.left, l)).squaredNorm();
+    if (arm2 > 0 && !(gap2 <= kOpened * kOpened * arm2)) return true;
+  }
+  return false;
+}
+
+// Lanes that Newton's steps have not closed, where nothing was open before.
+template <int W>
+void JointPack<W>::noteOpened(const JointStage& stage) {
+  place(false);
+  std::array<bool, W> isOpen{};
+  for (int l = 0; l < lanes_; ++l) isOpen[l] = hasGap(l);
+  if (std::none_of(isOpen.begin(), isOpen.end(), [](bool open) { return open; })) return;
+  gatherPoses<W>(ids_, stage.pose, bodies_);
+  jointKernels<W>().seeGaps(view(), false);
+  for (int l = 0; l < lanes_; ++l) {
+    of_[l]->isOpened_ = of_[l]->isOpened_ || (isOpen[l] && !hasGap(l));
+  }
+}
+
 // Newton's method, until what is off before a step is no more than `tolerance` of the arms.
 template <int W>
 void JointPack<W>::closePositions(const JointStage& stage, double tolerance) {
@@ -476,6 +505,7 @@ void JointPack<W>::closePositions(const JointStage& stage, double tolerance) {
     step();
     if (!isFar && !waits) break;
     open_ = open;
+    if (k + 1 == kMostSteps) noteOpened(stage);
   }
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
@@ -567,6 +597,7 @@ void JointPack<W>::finish(Kinds& kinds, double h) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const JointLanes<W>& row = rows_[i];
     for (int l = 0; l < lanes_; ++l) {
+      if (of_[l]->isOpened_) continue;
       const Vec3 lambda = read(row.lambda, l);
       writeMultiplier(kinds, of_[l]->refs_[i], lambda, h);
       if (!topology_->shapes[i].pulls) continue;
