@@ -220,6 +220,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
         for (int i = from; i < to; ++i) fill(w, h, batch.blocks[i]);
         contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), reach);
       });
+  noteDeep(w, batch, h);
 }
 
 // Multipliers from the lanes to the contacts that are kept.

@@ -3,6 +3,7 @@
 //   divide.cpp        articulations, islands, and the batches that they step in
 //   contact_rows.cpp  contacts into the lanes that sweep over them, and back
 //   responses.cpp     contacts that see what joints make of what they give
+//   deep.cpp          overlaps that take more than a few substeps
 //   contact_motion.cpp bodies into these lanes, and back
 //   renew.cpp         rows anew of what has turned far
 //   substep.cpp       a substep of a batch
@@ -70,6 +71,7 @@ constexpr int kMostSubsteps = 64;
 struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
   bool touches = false;  // contacts of rigid bodies, in every island of it
+  bool isDeep = false;   // it has overlaps that the push speed limits
   bool isAgain = false;  // another attempt of what too few substeps took apart
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
@@ -248,6 +250,7 @@ struct SmallSteps::Impl {
   bool learning = false;  // what contacts carry: they do not give way, nor push
   void fill(const Model& w, double h, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
+  static void noteDeep(const Model& w, Batch& batch, double h);
   std::vector<SoftPair> softPairs;
   std::vector<SoftContact> gathered;  // scratch, and its order
   std::vector<int> gatherOrder;

@@ -9,6 +9,8 @@ namespace physics {
 namespace {
 
 constexpr int kPositionSweeps = 4;  // of what is swept
+// Of contacts about deep overlaps: a push finds its way through a column of five in that many.
+constexpr int kSweepsOfDeep = 4;
 // The share of a substep in the mean spin of jointed bodies, and how much of the mean turns arms
 // back: what turns the other way in each substep has a mean of none, and stays damped; of a swing a
 // tenth of its damping is left, without which chains under a heavy end gain energy.
@@ -214,9 +216,12 @@ void SmallSteps::Impl::sweepContactPositions(Model& w, Batch& batch, double h) {
   sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
     contactKernels().warmStart(blocks, count, batch.motions.data());
   });
-  sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
-    contactKernels().sweepPositions(blocks, count, batch.motions.data(), push);
-  });
+  const int sweeps = batch.isDeep ? kSweepsOfDeep : 1;
+  for (int k = 0; k < sweeps; ++k) {
+    sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
+      contactKernels().sweepPositions(blocks, count, batch.motions.data(), push, k > 0);
+    });
+  }
 }
 
 void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which) {

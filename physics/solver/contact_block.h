@@ -12,7 +12,8 @@
 //                      r = min(s b, push / depth of the deepest), s b for what it is drawn by
 //   velocity           dlambda = -(J u + max(c, 0)) / A, and friction on the disc of (96)-(101)
 // with the total projected on lambda >= 0. What is deep is taken back by the same share at all
-// points of a manifold, so that it does not tilt on its way out. c is counted from where the spring
+// points of a manifold, so that it does not tilt on its way out, and about its bodies; without
+// friction on the push. c is counted from where the spring
 // carries `held`, the load at the start: what is drawn at rest stays where it is, and the law about
 // it is the same as anywhere. No include but this: it is compiled for several machines.
 #pragma once
@@ -23,8 +24,11 @@ namespace physics {
 // are in units in which its inertia is one: theta = root * turn, inverse inertia = root root^T, so
 // that a row has one vector, w = root^T (r x n), for the rate that it sees and the turn it gives.
 struct alignas(64) LaneMotion {
-  float u[3] = {}, turn[3] = {}, pad[2] = {};     // this substep [m, sqrt(kg) m]
-  float du[3] = {}, dturn[3] = {}, more[2] = {};  // since the rows were prepared
+  float u[3] = {}, turn[3] = {}, pad[2] = {};  // this substep [m, sqrt(kg) m]
+  float du[3] = {}, dturn[3] = {};             // since the rows were prepared
+  // Of its overlaps that the push speed limits, and of its neighbours', when rows were prepared
+  // [m].
+  float deepest = 0, own = 0;
 };
 
 // What rows need of a body: 1/m, and the lower triangle 00 10 20 11 21 22 of the root. Where
@@ -83,7 +87,9 @@ struct ContactKernels {
   // not count for the centre of friction.
   void (*prepare)(ContactBlock* blocks, int count, const LaneMass* masses, float reach);
   void (*warmStart)(ContactBlock* blocks, int count, LaneMotion* motions);
-  void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, float push);
+  // `again`: only those of bodies that have something deep about them.
+  void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, float push,
+                         bool again);
   void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions,
                           VelocitySweep which);
   // The same where the bodies stand: of the loads that hold them there.

@@ -1,7 +1,6 @@
 // The kernels of contact_block.h, for the two files that compile them. KERNELS names the table.
 #include "physics/solver/contact_block.h"
-#include "physics/solver/contact_prepare.h"
-#include "physics/solver/lanes.h"
+#include "physics/solver/contact_positions.h"
 
 namespace physics {
 namespace {
@@ -10,55 +9,6 @@ template <int kCount>
 struct Count {
   static constexpr int value = kCount;
 };
-
-struct Moved {
-  Lanes3 u, turn;
-};
-
-// Eight bodies, as they lie, into lanes and back. What has no mass is not written: blocks that
-// meet it may be swept at the same time.
-inline Moved gather(const int (&slot)[8], const LaneMotion* motions) {
-  Lanes rows[8];
-  for (int l = 0; l < 8; ++l) rows[l] = load(motions[slot[l]].u);
-  transpose(rows);
-  return {{rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}};
-}
-inline Moved gatherSince(const int (&slot)[8], const LaneMotion* motions) {
-  Lanes rows[8];
-  for (int l = 0; l < 8; ++l) rows[l] = load(motions[slot[l]].du);
-  transpose(rows);
-  return {{rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}};
-}
-inline void scatter(const int (&slot)[8], Lanes mass, const Moved& body, LaneMotion* motions) {
-  const Lanes zero = all(0);
-  Lanes rows[8] = {body.u.x, body.u.y, body.u.z, body.turn.x, body.turn.y, body.turn.z, zero, zero};
-  transpose(rows);
-  const unsigned moves = positive(mass);
-  for (int l = 0; l < 8; ++l) {
-    if (moves >> l & 1) store(motions[slot[l]].u, rows[l]);
-  }
-}
-
-template <class Row>
-inline Lanes rateOf(const Row& row, Lanes along, const Moved& a, const Moved& b) {
-  return along + dot(load(row.wA), a.turn) - dot(load(row.wB), b.turn);
-}
-
-template <class Row>
-inline void turn(const Row& row, Lanes impulse, Moved& a, Moved& b) {
-  a.turn = a.turn + load(row.wA) * impulse;
-  b.turn = b.turn - load(row.wB) * impulse;
-}
-
-inline void push(const ContactBlock& m, const Lanes3& impulse, Moved& a, Moved& b) {
-  a.u = a.u + impulse * load(m.massA);
-  b.u = b.u - impulse * load(m.massB);
-}
-
-inline void twist(const ContactBlock& m, Lanes impulse, Moved& a, Moved& b) {
-  a.turn = a.turn + load(m.twistA) * impulse;
-  b.turn = b.turn - load(m.twistB) * impulse;
-}
 
 template <int kCount>
 inline void warmStartBlock(ContactBlock& m, LaneMotion* motions) {
@@ -75,60 +25,6 @@ inline void warmStartBlock(ContactBlock& m, LaneMotion* motions) {
   turn(t2, along2, a, b);
   twist(m, load(m.twist), a, b);
   push(m, load(m.n) * sum + load(t1.d) * along1 + load(t2.d) * along2, a, b);
-  scatter(m.bodyA, load(m.massA), a, motions);
-  scatter(m.bodyB, load(m.massB), b, motions);
-}
-
-// The gap of point i: `apart` is what the centres have moved along n.
-inline Lanes gapOf(const ContactBlock& m, int i, Lanes apart, const Moved& a, const Moved& b) {
-  return load(m.gap[i]) + rateOf(m.point[i], apart, a, b);
-}
-
-// What point i was given, to the rates of those that come after it.
-template <int kCount>
-inline void tellOthers(const ContactBlock& m, int i, Lanes delta, Lanes (&v)[kCount]) {
-  for (int j = i + 1; j < kCount; ++j) v[j] = v[j] + load(m.coupling[couplingOf(i, j)]) * delta;
-}
-
-template <int kCount>
-inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float pushed) {
-  Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
-  const Moved sinceA = gatherSince(m.bodyA, motions), sinceB = gatherSince(m.bodyB, motions);
-  const Lanes3 n = load(m.n);
-  const Lanes zero = all(0), one = all(1), soft = load(m.scale);
-  const Lanes along = dot(n, a.u - b.u), apart = dot(n, sinceA.u - sinceB.u);
-  Lanes c[kCount], v[kCount], deepest = all(kTiny), sum = zero;
-  for (int i = 0; i < kCount; ++i) {
-    c[i] = gapOf(m, i, apart, sinceA, sinceB);
-    v[i] = rateOf(m.point[i], along, a, b);
-    deepest = larger(deepest, zero - (c[i] + load(m.drawn[i])));
-  }
-  const Lanes full = soft * load(m.rate), share = smaller(full, all(pushed) / deepest);
-  // Twice: the first point of a sweep is pushed for all, and the bodies would tilt.
-  Lanes lambda[kCount];
-  for (int i = 0; i < kCount; ++i) lambda[i] = load(m.point[i].lambda);
-  for (int pass = 0; pass < 2; ++pass) {
-    for (int i = 0; i < kCount; ++i) {
-      const Lanes inverse = load(m.point[i].inverse), scale = wherePositive(c[i], one, soft);
-      const Lanes drawn = load(m.drawn[i]);
-      const Lanes back = share * (c[i] + drawn) - full * drawn;
-      const Lanes aim = wherePositive(c[i], c[i], back);
-      const Lanes yields = (one - scale) * lambda[i];
-      const Lanes total = larger(lambda[i] - yields - inverse * (scale * v[i] + aim), zero);
-      const Lanes delta = total - lambda[i];
-      lambda[i] = total;
-      for (int j = 0; j < i; ++j) v[j] = v[j] + load(m.coupling[couplingOf(j, i)]) * delta;
-      tellOthers(m, i, delta, v);
-      v[i] = v[i] + wherePositive(inverse, delta / larger(inverse, all(kTiny)), zero);
-    }
-  }
-  for (int i = 0; i < kCount; ++i) {
-    const Lanes delta = lambda[i] - load(m.point[i].lambda);
-    store(m.point[i].lambda, lambda[i]);
-    turn(m.point[i], delta, a, b);
-    sum = sum + delta;
-  }
-  push(m, n * sum, a, b);
   scatter(m.bodyA, load(m.massA), a, motions);
   scatter(m.bodyB, load(m.massB), b, motions);
 }
@@ -178,7 +74,7 @@ inline Lanes3 sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const 
 // How far each point is open where the substep has moved the bodies to.
 template <int kCount>
 inline void measureBlock(ContactBlock& m, const LaneMotion* motions) {
-  const Moved a = gatherSince(m.bodyA, motions), b = gatherSince(m.bodyB, motions);
+  const Since a = gatherSince(m.bodyA, motions), b = gatherSince(m.bodyB, motions);
   const Lanes apart = dot(load(m.n), a.u - b.u);
   for (int i = 0; i < kCount; ++i) {
     store(m.point[i].open, larger(gapOf(m, i, apart, a, b), all(0)));
@@ -216,7 +112,8 @@ inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions, VelocityS
     store(m.change, change);
   }
   Lanes3 impulse = n * sum;
-  if (which.rows != ContactRows::kNormal) impulse = impulse + sweepFriction(m, normal, turning, between, a, b);
+  if (which.rows != ContactRows::kNormal)
+    impulse = impulse + sweepFriction(m, normal, turning, between, a, b);
   push(m, impulse, a, b);
   scatter(m.bodyA, load(m.massA), a, motions);
   scatter(m.bodyB, load(m.massB), b, motions);
@@ -305,9 +202,10 @@ void warmStartAll(ContactBlock* blocks, int count, LaneMotion* motions) {
     warmStartBlock<points.value>(block, motions);
   });
 }
-void sweepPositionsAll(ContactBlock* blocks, int count, LaneMotion* motions, float push) {
+void sweepPositionsAll(ContactBlock* blocks, int count, LaneMotion* motions, float push,
+                       bool again) {
   forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
-    sweepPositionsBlock<points.value>(block, motions, push);
+    sweepPositionsBlock<points.value>(block, motions, push, again);
   });
 }
 void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions, VelocitySweep which) {

@@ -1,0 +1,47 @@
+// Overlaps that are taken back more slowly than springs would: those that the push speed limits.
+#include <algorithm>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+namespace {
+
+// f(block, lane, overlap of its deepest point) of those that are drawn further than they are held.
+template <class F>
+void forEachOverlap(std::span<const ContactBlock> blocks, F&& f) {
+  for (const ContactBlock& block : blocks) {
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      float depth = 0;
+      for (int k = 0; k < block.points; ++k) {
+        depth = std::max(depth, -(block.gap[k][l] + block.drawn[k][l]));
+      }
+      if (depth > 0) f(block, l, depth);
+    }
+  }
+}
+
+}  // namespace
+
+// The deepest of these at every body and at those that it overlaps. Were all of them pushed alike,
+// a crowd could balance with the one inside the other: around the deepest the others are pushed in
+// proportion to their depth, which is how springs unpack.
+void SmallSteps::Impl::noteDeep(const Model& w, Batch& batch, double h) {
+  const float push = static_cast<float>(w.settings.contact->maxSeparationSpeed * h);
+  batch.isDeep = false;
+  forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float depth) {
+    if (!(block.scale[l] * block.rate[l] * depth > push)) return;
+    batch.isDeep = true;
+    for (const int slot : {block.bodyA[l], block.bodyB[l]}) {
+      if (slot > 0) batch.motions[slot].own = std::max(batch.motions[slot].own, depth);
+    }
+  });
+  if (!batch.isDeep) return;
+  for (LaneMotion& motion : batch.motions) motion.deepest = motion.own;
+  forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float) {
+    LaneMotion &a = batch.motions[block.bodyA[l]], &b = batch.motions[block.bodyB[l]];
+    if (block.bodyA[l] > 0) a.deepest = std::max(a.deepest, b.own);
+    if (block.bodyB[l] > 0) b.deepest = std::max(b.deepest, a.own);
+  });
+}
+
+}  // namespace physics

@@ -1,0 +1,75 @@
+// Bodies in the lanes of contacts, and what an impulse does to them: a part of the kernels of
+// contact_block.h.
+#include "physics/solver/contact_block.h"
+#include "physics/solver/contact_prepare.h"
+#include "physics/solver/lanes.h"
+
+namespace physics {
+namespace {
+
+struct Moved {
+  Lanes3 u, turn;
+};
+struct Since {
+  Lanes3 u, turn;
+  Lanes deepest;
+};
+
+// Eight bodies, as they lie, into lanes and back. What has no mass is not written: blocks that
+// meet it may be swept at the same time.
+inline Moved gather(const int (&slot)[8], const LaneMotion* motions) {
+  Lanes rows[8];
+  for (int l = 0; l < 8; ++l) rows[l] = load(motions[slot[l]].u);
+  transpose(rows);
+  return {{rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}};
+}
+inline Since gatherSince(const int (&slot)[8], const LaneMotion* motions) {
+  Lanes rows[8];
+  for (int l = 0; l < 8; ++l) rows[l] = load(motions[slot[l]].du);
+  transpose(rows);
+  return {{rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}, rows[6]};
+}
+inline void scatter(const int (&slot)[8], Lanes mass, const Moved& body, LaneMotion* motions) {
+  const Lanes zero = all(0);
+  Lanes rows[8] = {body.u.x, body.u.y, body.u.z, body.turn.x, body.turn.y, body.turn.z, zero, zero};
+  transpose(rows);
+  const unsigned moves = positive(mass);
+  for (int l = 0; l < 8; ++l) {
+    if (moves >> l & 1) store(motions[slot[l]].u, rows[l]);
+  }
+}
+
+template <class Row, class Body>
+inline Lanes rateOf(const Row& row, Lanes along, const Body& a, const Body& b) {
+  return along + dot(load(row.wA), a.turn) - dot(load(row.wB), b.turn);
+}
+
+template <class Row>
+inline void turn(const Row& row, Lanes impulse, Moved& a, Moved& b) {
+  a.turn = a.turn + load(row.wA) * impulse;
+  b.turn = b.turn - load(row.wB) * impulse;
+}
+
+inline void push(const ContactBlock& m, const Lanes3& impulse, Moved& a, Moved& b) {
+  a.u = a.u + impulse * load(m.massA);
+  b.u = b.u - impulse * load(m.massB);
+}
+
+inline void twist(const ContactBlock& m, Lanes impulse, Moved& a, Moved& b) {
+  a.turn = a.turn + load(m.twistA) * impulse;
+  b.turn = b.turn - load(m.twistB) * impulse;
+}
+
+// The gap of point i: `apart` is what the centres have moved along n.
+inline Lanes gapOf(const ContactBlock& m, int i, Lanes apart, const Since& a, const Since& b) {
+  return load(m.gap[i]) + rateOf(m.point[i], apart, a, b);
+}
+
+// What point i was given, to the rates of those that come after it.
+template <int kCount>
+inline void tellOthers(const ContactBlock& m, int i, Lanes delta, Lanes (&v)[kCount]) {
+  for (int j = i + 1; j < kCount; ++j) v[j] = v[j] + load(m.coupling[couplingOf(i, j)]) * delta;
+}
+
+}  // namespace
+}  // namespace physics

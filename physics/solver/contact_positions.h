@@ -1,0 +1,81 @@
+// The position sweep: a part of the kernels of contact_block.h.
+#include "physics/solver/contact_lanes.h"
+
+namespace physics {
+namespace {
+
+// What is pushed apart slides: friction would hold it by the push, which is no load.
+inline void forgetFriction(ContactBlock& m, Lanes deep, Moved& a, Moved& b) {
+  const Lanes zero = all(0);
+  for (ContactBlock::Tangent& t : m.tangent) {
+    const Lanes lambda = load(t.lambda), back = wherePositive(deep, zero - lambda, zero);
+    turn(t, back, a, b);
+    push(m, load(t.d) * back, a, b);
+    store(t.lambda, lambda + back);
+  }
+  const Lanes lambda = load(m.twist), back = wherePositive(deep, zero - lambda, zero);
+  twist(m, back, a, b);
+  store(m.twist, lambda + back);
+}
+
+// Where overlaps are, and the share of them that a substep takes back.
+template <int kCount>
+struct Depths {
+  Lanes c[kCount], own = all(kTiny), near, full, share;
+
+  Depths(const ContactBlock& m, const Since& a, const Since& b, float pushed)
+      : near(larger(a.deepest, b.deepest)), full(load(m.scale) * load(m.rate)) {
+    const Lanes zero = all(0), apart = dot(load(m.n), a.u - b.u);
+    for (int i = 0; i < kCount; ++i) {
+      c[i] = gapOf(m, i, apart, a, b);
+      own = larger(own, zero - (c[i] + load(m.drawn[i])));
+    }
+    share = smaller(full, all(pushed) / larger(own, near));
+  }
+};
+
+// `again`: only where there is something deep.
+template <int kCount>
+inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float pushed, bool again) {
+  const Depths<kCount> depths(m, gatherSince(m.bodyA, motions), gatherSince(m.bodyB, motions),
+                              pushed);
+  const bool isNear = positive(depths.near) != 0;
+  if (again && !isNear) return;
+  Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
+  if (isNear && !again) forgetFriction(m, depths.full * depths.own - all(pushed), a, b);
+  const Lanes3 n = load(m.n);
+  const Lanes zero = all(0), one = all(1), soft = load(m.scale), along = dot(n, a.u - b.u);
+  Lanes v[kCount], lambda[kCount], sum = zero;
+  for (int i = 0; i < kCount; ++i) {
+    v[i] = rateOf(m.point[i], along, a, b);
+    lambda[i] = load(m.point[i].lambda);
+  }
+  // Twice: the first point of a sweep is pushed for all, and the bodies would tilt.
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int i = 0; i < kCount; ++i) {
+      const Lanes c = depths.c[i], drawn = load(m.drawn[i]), inverse = load(m.point[i].inverse);
+      const Lanes scale = wherePositive(c, one, soft);
+      const Lanes aim = wherePositive(c, c, depths.share * (c + drawn) - depths.full * drawn);
+      const Lanes yields = (one - scale) * lambda[i];
+      Lanes total = larger(lambda[i] - yields - inverse * (scale * v[i] + aim), zero);
+      if (again) total = wherePositive(depths.near, total, lambda[i]);
+      const Lanes delta = total - lambda[i];
+      lambda[i] = total;
+      for (int j = 0; j < i; ++j) v[j] = v[j] + load(m.coupling[couplingOf(j, i)]) * delta;
+      tellOthers(m, i, delta, v);
+      v[i] = v[i] + wherePositive(inverse, delta / larger(inverse, all(kTiny)), zero);
+    }
+  }
+  for (int i = 0; i < kCount; ++i) {
+    const Lanes delta = lambda[i] - load(m.point[i].lambda);
+    store(m.point[i].lambda, lambda[i]);
+    turn(m.point[i], delta, a, b);
+    sum = sum + delta;
+  }
+  push(m, n * sum, a, b);
+  scatter(m.bodyA, load(m.massA), a, motions);
+  scatter(m.bodyB, load(m.massB), b, motions);
+}
+
+}  // namespace
+}  // namespace physics
