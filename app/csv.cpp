@@ -69,7 +69,8 @@ std::string metricsTable(const std::vector<scenes::FrameMetrics>& metrics,
   std::string table = "frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz";
   for (const std::string& kind : kinds) table += "," + kind + "_error";
   table += ",overlap,contacts,iterations,restarts,fallbacks";
-  table += ",simulate_seconds,view_seconds,draw_seconds,write_seconds,asleep\n";
+  table += ",simulate_seconds,view_seconds,draw_seconds,write_seconds,asleep";
+  table += ",accepted_steps,rejected_steps,order,shortest_step,error_estimate\n";
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     const scenes::FrameMetrics& m = metrics[i];
     const physics::Vec3 p = m.linearMomentum, l = m.angularMomentum;
@@ -80,9 +81,12 @@ std::string metricsTable(const std::vector<scenes::FrameMetrics>& metrics,
     }
     for (const std::string& kind : kinds) table += fmt::format(",{:.17g}", errorOf(m, kind));
     const StageSeconds& s = seconds[i];
-    table += fmt::format(",{:.17g},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", m.overlap,
+    table += fmt::format(",{:.17g},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{}", m.overlap,
                          m.contacts, m.iterations, m.restarts, m.fallbacks, s.simulate, s.view,
                          s.draw, s.write, m.asleep);
+    const physics::AccuracyReport& a = m.accuracy;
+    table += fmt::format(",{},{},{},{:.6g},{:.6g}\n", a.accepted, a.rejected, a.order, a.least,
+                         a.estimate);
   }
   return table;
 }

@@ -51,6 +51,14 @@ void addOverrides(CLI::App& command, CommonOptions& options) {
                   "Override a value of the scene, as --set simulation.iterations=32; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  command
+      .add_option_function<std::string>(
+          "--accuracy",
+          [&options](const std::string& value) {
+            options.overrides.push_back("simulation.accuracy=" + value);
+          },
+          "How accurately to step, relative to the size of what moves, as 1e-3: simulation.accuracy")
+      ->type_name("A");
 }
 
 void addOutput(CLI::App& command, CommonOptions& options, const std::string& folder) {

@@ -40,6 +40,7 @@ Json describeSettings(const scenes::Scene& scene) {
                {"stepping", static_cast<int>(s.stepping)},
                {"relaxation", s.relaxation},
                {"regularisation", s.regularisation}};
+  json["accuracy"] = s.accuracy ? Json(*s.accuracy) : Json();
   json["gravity"] = s.gravity ? toJson(*s.gravity) : Json();
   json["contact"] = s.contact ? describeContact(*s.contact) : Json();
   return json;

@@ -72,6 +72,7 @@ struct Simulation::Impl {
   Built built;
   int frame = 0;
   int iterations = 0, restarts = 0, fallbacks = 0, asleep = 0;
+  physics::AccuracyReport accuracy;
   bool finite = true;
 
   explicit Impl(const Scene& s) : scene(s), built(s.settings) {
@@ -104,6 +105,7 @@ physics::StepReport Simulation::advance() {
   impl_->restarts = report.restarts;
   impl_->fallbacks = report.fallbacks;
   impl_->asleep = report.asleep;
+  impl_->accuracy = report.accuracy;
   impl_->finite = !report.notFinite;
   if (impl_->finite) ++impl_->frame;
   return report;
@@ -112,6 +114,7 @@ physics::StepReport Simulation::advance() {
 bool Simulation::place(std::span<const physics::Pose> poses,
                        std::span<const physics::Velocity> velocities) {
   impl_->iterations = impl_->restarts = impl_->fallbacks = impl_->asleep = 0;
+  impl_->accuracy = {};
   impl_->finite = impl_->built.world.setState(poses, velocities);
   if (impl_->finite) ++impl_->frame;
   return impl_->finite;
@@ -146,6 +149,7 @@ FrameMetrics Simulation::metrics() const {
   metrics.restarts = impl_->restarts;
   metrics.fallbacks = impl_->fallbacks;
   metrics.asleep = impl_->asleep;
+  metrics.accuracy = impl_->accuracy;
   return metrics;
 }
 

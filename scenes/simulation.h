@@ -27,6 +27,7 @@ struct FrameMetrics {
   int asleep = 0;  // bodies
   int restarts = 0,
       fallbacks = 0;  // of second-order steppings, body by body; physics/model/report.h
+  physics::AccuracyReport accuracy;
 };
 
 class Simulation {

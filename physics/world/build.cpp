@@ -11,6 +11,8 @@ bool isPoint(const Shape& shape) { return std::holds_alternative<PointShape>(sha
 void checkSettings(const Settings& s) {
   require(std::isfinite(s.dt) && s.dt > 0, "dt must be a positive number of seconds");
   require(s.substeps >= 1, "substeps must be at least 1");
+  require(!s.accuracy || (*s.accuracy > 0 && *s.accuracy <= 0.5),
+          "accuracy must lie between 0 and 0.5");
   require(s.iterations >= 1, "iterations must be at least 1");
   require(s.relaxation > 0 && s.relaxation < 2, "relaxation must lie between 0 and 2");
   require(s.regularisation >= 0 && std::isfinite(s.regularisation), "regularisation must be >= 0");

@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
 // The rooms of physics/ from bottom to top: a file includes what is in its own room or below it.
 const std::vector<std::string> kRooms = {"base",        "bodies",   "collision", "constraints",
                                          "kinematics",  "motion",   "solver",    "model",
-                                         "small_steps", "sweep",    "rivals",    "state",
+                                         "accurate",    "small_steps", "sweep",    "rivals",    "state",
                                          "effects",     "stepping", "world",     "make"};
 
 // -1: in none. physics/world.h and physics/world.cpp are of the room that their name says.

@@ -1,0 +1,223 @@
+// Settings::accuracy: what is asked is delivered, and orders are what they are said to be.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "physics/accurate/extrapolation.h"
+#include "physics/world.h"
+#include "physics/world/measure.h"
+#include "tests/physics/gravity.h"
+
+namespace physics {
+namespace {
+
+using testing::kGravity;
+
+Settings asking(std::optional<double> accuracy) {
+  Settings settings;
+  settings.accuracy = accuracy;
+  settings.substeps = 1;
+  settings.gravity = Vec3(0, -kGravity, 0);
+  return settings;
+}
+
+// A rigid body of three different moments on a ball socket, swinging and turning.
+struct Swing {
+  Kinds kinds;
+  Bodies bodies;
+  std::vector<Load> loads{2};
+  JointTopologies known;
+  std::vector<JointRef> refs;
+
+  Swing() {
+    add({}, Vec3::Zero(), Motion::kStatic);
+    add({{-1, 0, 0}, Quat::Identity()}, {0.1, 0.2, 0.25}, Motion::kDynamic);
+    int place = 0;
+    forEachKind(kinds, [&](auto& kind) {
+      if constexpr (std::is_same_v<typename std::decay_t<decltype(kind)>::Item, BallSocket>) {
+        BallSocket joint;
+        joint.bodies = {0, 1};
+        joint.anchors = {Vec3::Zero(), Vec3(1, 0, 0)};
+        kind.set.items.push_back(joint);
+        kind.set.tuned.push_back({1, 0});
+        refs = {{place, 0}};
+      }
+      ++place;
+    });
+  }
+  void add(const Pose& pose, const Vec3& inertia, Motion motion) {
+    const bool moves = motion == Motion::kDynamic;
+    bodies.pose.push_back(pose);
+    bodies.velocity.push_back({});
+    bodies.mass.push_back(1);
+    bodies.inertia.push_back(inertia);
+    bodies.inverseInertia.push_back(moves ? inertia.cwiseInverse().eval() : Vec3::Zero());
+    bodies.motion.push_back(motion);
+    bodies.inverse.push_back({moves ? 1.0 : 0.0, Mat3::Zero()});
+    bodies.shape.push_back(PointShape{});
+  }
+  // Where the body is after 2 s.
+  Vec3 end(int columns, int steps) {
+    const Surroundings world{kinds, bodies, loads, Vec3(0, -kGravity, 0)};
+    std::vector<Pose> now = bodies.pose, start = now, later = now;
+    const std::vector<BodyId> moving = {1};
+    Extrapolation motion(SymmetricStep(refs, moving, world, known));
+    IslandState state{bodies.pose, bodies.velocity};
+    state.velocity[1].w = Vec3(0.5, 0, 0);
+    EXPECT_TRUE(motion.advanceBy(state, 2, columns, steps, world, {now, start, later}));
+    return state.pose[1].x;
+  }
+};
+
+class OrderOfExtrapolation : public ::testing::TestWithParam<int> {};
+
+TEST_P(OrderOfExtrapolation, IsTwiceTheColumns) {
+  Swing swing;
+  const int columns = GetParam();
+  const Vec3 exact = swing.end(4, 320);
+  const double coarse = (swing.end(columns, 40) - exact).norm();
+  const double fine = (swing.end(columns, 80) - exact).norm();
+  std::printf("order %d: %.2e, halved %.2e, 2^%.2f\n", 2 * columns, coarse, fine,
+              std::log2(coarse / fine));
+  EXPECT_NEAR(std::log2(coarse / fine), 2 * columns, 0.4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Accuracy, OrderOfExtrapolation, ::testing::Values(1, 2, 3, 4));
+
+// Three bars that fall from the level, hung up in a row; in front of them another such row, or
+// none.
+World bars(std::optional<double> accuracy, double stiffness = 0) {
+  World world(asking(accuracy));
+  BodyId before = kWorldBody;
+  for (int i = 0; i < 3; ++i) {
+    BodyDef bar;
+    bar.shape = Box{Vec3(0.3, 0.04, 0.04)};
+    bar.pose.x = Vec3(0.15 + 0.3 * i, 0, 0);
+    const BodyId body = world.add(bar);
+    BallSocketDef joint;
+    joint.bodies = {before, body};
+    joint.anchors = {Vec3(i == 0 ? 0 : 0.15, 0, 0), Vec3(-0.15, 0, 0)};
+    world.add(joint);
+    before = body;
+  }
+  if (!(stiffness > 0)) return world;
+  BodyDef bob;
+  bob.pose.x = Vec3(0, -1, 5);
+  SpringDef spring;
+  spring.bodies = {kWorldBody, world.add(bob)};
+  spring.anchors = {Vec3(0, 0, 5), Vec3::Zero()};
+  spring.stiffness = stiffness;
+  spring.restLength = 0.9;
+  world.add(spring);
+  return world;
+}
+
+std::vector<Pose> after(World& world, double seconds, AccuracyReport* sum = nullptr) {
+  const int steps = static_cast<int>(std::lround(seconds / world.settings().dt));
+  for (int k = 0; k < steps; ++k) {
+    const AccuracyReport of = world.step().accuracy;
+    if (sum == nullptr) continue;
+    sum->accepted += of.accepted;
+    sum->order = std::max(sum->order, of.order);
+    sum->estimate += of.estimate;
+  }
+  return world.bodies().pose;
+}
+
+TEST(Accuracy, IsDeliveredByBarsThatWhip) {
+  World exact = bars(1e-11);
+  const std::vector<Pose> reference = after(exact, 1.5);
+  for (const double asked : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    World world = bars(asked);
+    AccuracyReport report;
+    const std::vector<Pose> poses = after(world, 1.5, &report);
+    double error = 0;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      error = std::max(error, (poses[i].x - reference[i].x).norm() / 0.9);
+    }
+    std::printf("asked %.0e: delivered %.1e, estimate %.1e, %d steps, order %d\n", asked, error,
+                report.estimate, report.accepted, report.order);
+    EXPECT_LT(error, asked);
+    EXPECT_GT(report.estimate, 0);
+  }
+}
+
+TEST(Accuracy, KeepsEnergyAndJoints) {
+  World world = bars(1e-8);
+  const double before = measure(world).total();
+  after(world, 5);
+  EXPECT_NEAR(measure(world).total(), before, 1e-6);
+  for (const KindError& error : world.constraintErrors()) EXPECT_LT(error.largest, 1e-9);
+}
+
+TEST(Accuracy, OfOneIslandDependsOnNoOther) {
+  World alone = bars(1e-4), beside = bars(1e-4, 1e5);
+  AccuracyReport few, many;
+  const std::vector<Pose> one = after(alone, 1, &few), two = after(beside, 1, &many);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].x, two[i].x);
+    EXPECT_EQ(one[i].q.coeffs(), two[i].q.coeffs());
+  }
+}
+
+TEST(Accuracy, IsOfTheDefaultOnlyWhereAsked) {
+  World world = bars(std::nullopt);
+  AccuracyReport report;
+  after(world, 0.2, &report);
+  EXPECT_EQ(report.accepted, 0);
+  EXPECT_THROW(World(asking(0)), std::invalid_argument);
+  EXPECT_THROW(World(asking(-1e-3)), std::invalid_argument);
+  EXPECT_THROW(World(asking(std::nan(""))), std::invalid_argument);
+}
+
+// A box slides to a stop: v^2/(2 nu g) far, the default being off by v h/2.
+TEST(Accuracy, FindsWhereSlidingEnds) {
+  const auto slide = [](std::optional<double> accuracy) {
+    Settings settings = asking(accuracy);
+    settings.contact = ContactSettings{};
+    settings.contact->friction = {0.4, 0.4};
+    World world(settings);
+    BodyDef floor;
+    floor.motion = Motion::kStatic;
+    floor.shape = Plane{};
+    world.add(floor);
+    BodyDef box;
+    box.shape = Box{Vec3(0.6, 0.2, 0.6)};
+    box.pose.x = Vec3(0, 0.1, 0);
+    box.velocity.v = Vec3(3, 0, 0);
+    const BodyId body = world.add(box);
+    after(world, 1.5);
+    return std::abs(world.bodies().pose[body].x.x() - 9 / (2 * 0.4 * kGravity));
+  };
+  EXPECT_GT(slide(std::nullopt), 1e-2);
+  EXPECT_LT(slide(1e-2), 1e-2);
+  EXPECT_LT(slide(1e-3), 1e-3);
+}
+
+// What rests is left as the default leaves it.
+TEST(Accuracy, LeavesAStackAlone) {
+  const auto stack = [](std::optional<double> accuracy) {
+    Settings settings = asking(accuracy);
+    settings.contact = ContactSettings{};
+    World world(settings);
+    BodyDef floor;
+    floor.motion = Motion::kStatic;
+    floor.shape = Plane{};
+    world.add(floor);
+    for (int i = 0; i < 5; ++i) {
+      BodyDef box;
+      box.shape = Box{Vec3(0.2, 0.2, 0.2)};
+      box.pose.x = Vec3(0, 0.1 + 0.2 * i, 0);
+      world.add(box);
+    }
+    return after(world, 2);
+  };
+  const std::vector<Pose> asked = stack(1e-3);
+  for (std::size_t i = 2; i < asked.size(); ++i) {
+    EXPECT_NEAR(asked[i].x.y(), 0.1 + 0.2 * (static_cast<double>(i) - 2), 1e-5);
+    EXPECT_NEAR(asked[i].x.x(), 0, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace physics
