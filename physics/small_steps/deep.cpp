@@ -6,7 +6,7 @@
 namespace physics {
 namespace {
 
-// f(block, lane, overlap of its deepest point) of those that are drawn further than they are held.
+// f(block, lane, overlap of its deepest point) of what overlaps.
 template <class F>
 void forEachOverlap(std::span<const ContactBlock> blocks, F&& f) {
   for (const ContactBlock& block : blocks) {

@@ -42,7 +42,10 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float push
   const bool isNear = positive(depths.near) != 0;
   if (again && !isNear) return;
   Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
-  if (isNear && !again) forgetFriction(m, depths.full * depths.own - all(pushed), a, b);
+  if (isNear && !again) {
+    const Lanes deep = depths.full * depths.own - all(pushed);
+    forgetFriction(m, wherePositive(depths.near, deep, all(0)), a, b);
+  }
   const Lanes3 n = load(m.n);
   const Lanes zero = all(0), one = all(1), soft = load(m.scale), along = dot(n, a.u - b.u);
   Lanes v[kCount], lambda[kCount], sum = zero;
