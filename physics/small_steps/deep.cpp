@@ -24,12 +24,15 @@ void forEachOverlap(std::span<const ContactBlock> blocks, F&& f) {
 
 // The deepest of these at every body and at those that it overlaps. Were all of them pushed alike,
 // a crowd could balance with the one inside the other: around the deepest the others are pushed in
-// proportion to their depth, which is how springs unpack.
-void SmallSteps::Impl::noteDeep(const Model& w, Batch& batch, double h) {
+// proportion to their depth, which is how springs unpack. Figures come apart as their joints let
+// them, in turns with these.
+void SmallSteps::Impl::noteDeep(const Model& w, Batch& batch, double h) const {
   const float push = static_cast<float>(w.settings.contact->maxSeparationSpeed * h);
   batch.isDeep = false;
+  const auto isJointed = [&](int slot) { return articulationOf[batch.slots[slot]] >= 0; };
   forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float depth) {
     if (!(block.scale[l] * block.rate[l] * depth > push)) return;
+    if (isJointed(block.bodyA[l]) || isJointed(block.bodyB[l])) return;
     batch.isDeep = true;
     for (const int slot : {block.bodyA[l], block.bodyB[l]}) {
       if (slot > 0) batch.motions[slot].own = std::max(batch.motions[slot].own, depth);

@@ -250,7 +250,7 @@ struct SmallSteps::Impl {
   bool learning = false;  // what contacts carry: they do not give way, nor push
   void fill(const Model& w, double h, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
-  static void noteDeep(const Model& w, Batch& batch, double h);
+  void noteDeep(const Model& w, Batch& batch, double h) const;
   std::vector<SoftPair> softPairs;
   std::vector<SoftContact> gathered;  // scratch, and its order
   std::vector<int> gatherOrder;
