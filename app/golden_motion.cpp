@@ -28,9 +28,9 @@ std::string lengthText(double metres) {
     double size;
   } units[] = {{"km", 1e3}, {"m", 1}, {"mm", 1e-3}, {"um", 1e-6}, {"nm", 1e-9}};
   for (const auto& [unit, size] : units) {
-    if (metres >= size) return fmt::format("{:.2g} {}", metres / size, unit);
+    if (metres >= size) return fmt::format("{:.3g} {}", metres / size, unit);
   }
-  return fmt::format("{:.2g} m", metres);
+  return fmt::format("{:.3g} m", metres);
 }
 
 std::string namesOf(const scenes::Simulation& simulation) {
