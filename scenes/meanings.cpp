@@ -4,11 +4,10 @@
 namespace scenes {
 namespace {
 
-// clang-format off: a line each
+// clang-format off
 constexpr Meaning kOwn[] = {
     {"simulation.fps", "", "frames per second; a step takes one frame"},
-    {"simulation.accuracy", "",
-     "of motion, relative to the size of what moves: steps and order follow; absent: fast"},
+    {"simulation.accuracy", "", "error of a step, relative to the size of what moves"},
     {"simulation.substeps", "", "of a step; small_steps lets each island's load choose them"},
     {"simulation.iterations", "", "sweeps per substep"},
     {"simulation.max_iterations", "", "the most sweeps that tolerance may ask for"},

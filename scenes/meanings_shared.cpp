@@ -4,7 +4,7 @@
 namespace scenes {
 namespace {
 
-// clang-format off: a line each
+// clang-format off
 constexpr Meaning kShared[] = {
     {"title", "", "what the scene is called in lists and pages"},
     {"description", "", "a sentence or two on what is seen"},

@@ -10,7 +10,7 @@
 // none, as in a letter behind a line that ends in a backslash: it is.
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
-// clang-format off: this order
+// clang-format off
 #include <toml++/impl/forward_declarations.h>
 #include <toml++/impl/unicode.h>
 // clang-format on
