@@ -57,7 +57,8 @@ void addOverrides(CLI::App& command, CommonOptions& options) {
           [&options](const std::string& value) {
             options.overrides.push_back("simulation.accuracy=" + value);
           },
-          "How accurately to step, relative to the size of what moves, as 1e-3: simulation.accuracy")
+          "How accurately to step, relative to the size of what moves, as 1e-3: "
+          "simulation.accuracy")
       ->type_name("A");
 }
 

@@ -7,7 +7,7 @@ namespace {
 // clang-format off
 constexpr Meaning kOwn[] = {
     {"simulation.fps", "", "frames per second; a step takes one frame"},
-    {"simulation.accuracy", "", "error of a step, relative to the size of what moves"},
+    {"simulation.accuracy", "", "of motion, relative to the size of what moves; absent: fast"},
     {"simulation.substeps", "", "of a step; small_steps lets each island's load choose them"},
     {"simulation.iterations", "", "sweeps per substep"},
     {"simulation.max_iterations", "", "the most sweeps that tolerance may ask for"},

@@ -25,6 +25,7 @@ struct Impact {
   bool bounces = false;  // some point does
   bool over = false;     // it met nothing else and is done
   bool met = false;      // it is joined to an impact by bodies that touch
+  bool isEarly = false;  // it was stopped on its way, and hits in a later substep
   int strikes = 0;
 };
 
@@ -68,20 +69,22 @@ Vec3 acceleration(const Bodies& bodies, const FreeFlight& flight, BodyId body) {
 
 // v_i and tau of one point; nothing where the flight does not close the gap in this substep. One
 // that only just touches at the end, without an impulse, hits then.
-void fly(const ContactPointState& p, double a, double dt, double& speed, double& left) {
+// Told: the solve stopped it where it does not hit yet.
+bool fly(const ContactPointState& p, double a, double dt, double& speed, double& left) {
   if (p.normalTotal <= 0) {  // it only just touches at the end, and hits then
     speed = std::min(p.approach, 0.0);
-    return;
+    return false;
   }
   const double start = p.approach - dt * a;  // before the substep's own acceleration
   const double gap = p.loaded ? 0 : std::max(p.gapAtStart, 0.0);
   const double squared = start * start - 2 * a * gap;
-  if (!(squared > 0) || (start >= 0 && a >= 0)) return;
+  if (!(squared > 0) || (start >= 0 && a >= 0)) return false;
   const double hit = -std::sqrt(squared);
   const double time = start < 0 ? -2 * gap / (start + hit) : (hit - start) / a;
-  if (time > 1.5 * dt) return;  // the prediction of (29) falls twice as far: up to sqrt(2) dt
+  if (time > 1.5 * dt) return true;  // the prediction of (29) falls twice as far: up to sqrt(2) dt
   speed = hit;
   left = std::max(dt - time, 0.0);
+  return false;
 }
 
 Vec3 accelerationApart(const ContactPair& pair, const Bodies& bodies, const FreeFlight& flight) {
@@ -102,7 +105,8 @@ std::vector<Impact> impactsOf(const Contacts& contacts, const Bodies& bodies,
       impact.touches[k] = p.normalTotal > 0 || gapOf(pair, k, bodies.pose) < kClose;
       if (!impact.touches[k]) continue;
       touches = true;
-      fly(p, p.normal.dot(apart), flight.dt, impact.speed[k], impact.left[k]);
+      const bool isEarly = fly(p, p.normal.dot(apart), flight.dt, impact.speed[k], impact.left[k]);
+      impact.isEarly = impact.isEarly || (isEarly && p.approach < -threshold);
       if (impact.speed[k] > -threshold) impact.speed[k] = 0;
       impact.bounces = impact.bounces || impact.speed[k] < 0;
     }
@@ -213,6 +217,15 @@ bool strike(Impact& impact, Bodies& bodies, double restitution, double threshold
   return true;
 }
 
+bool meetsNothingElse(const ContactPair& pair, const std::vector<Given>& given,
+                      const Bodies& bodies, const FreeFlight& flight) {
+  for (const BodyId body : {pair.a, pair.b}) {
+    const bool moves = bodies.motion[body] == Motion::kDynamic;
+    if (moves && (given[body].pairs > 1 || !isFree(body, flight))) return false;
+  }
+  return true;
+}
+
 // A point of a pair that meets nothing else, whose points all hit at the same time and speed (a
 // ball, a box that falls flat); -1: none.
 int alone(const Impact& impact, const std::vector<Given>& given, const Bodies& bodies,
@@ -225,11 +238,7 @@ int alone(const Impact& impact, const std::vector<Given>& given, const Bodies& b
     const double apart = std::abs(impact.speed[k] - impact.speed[any]);
     if (impact.speed[k] == 0 || apart > -1e-9 * impact.speed[k]) return -1;
   }
-  for (const BodyId body : {pair.a, pair.b}) {
-    const bool moves = bodies.motion[body] == Motion::kDynamic;
-    if (moves && (given[body].pairs > 1 || !isFree(body, flight))) return -1;
-  }
-  return any;
+  return meetsNothingElse(pair, given, bodies, flight) ? any : -1;
 }
 
 // Opens the gap by what is flown after the hit; where several points hit, without a turn.
@@ -274,10 +283,15 @@ std::vector<bool> restitute(const Contacts& contacts, Bodies& bodies, double res
   const double threshold =
       std::max(flight.gravity ? 2 * flight.dt * flight.gravity->norm() : 0.0, kSlowest);
   std::vector<Impact> impacts = impactsOf(contacts, bodies, flight, threshold);
-  if (std::none_of(impacts.begin(), impacts.end(), [](auto& i) { return i.bounces; })) return {};
+  const auto matters = [](const Impact& impact) { return impact.bounces || impact.isEarly; };
+  if (std::none_of(impacts.begin(), impacts.end(), matters)) return {};
   const std::vector<Given> given = givenBy(impacts, bodies);
   std::vector<bool> jumped(bodies.pose.size(), false);
   for (Impact& impact : impacts) {
+    const ContactPair& pair = *impact.pair;
+    if (impact.isEarly && !impact.bounces && meetsNothingElse(pair, given, bodies, flight)) {
+      for (const BodyId body : {pair.a, pair.b}) undo(given[body], bodies, body, flight);
+    }
     const int k = impact.bounces ? alone(impact, given, bodies, flight) : -1;
     impact.over = k >= 0 && strikeAlone(impact, k, given, bodies, restitution, threshold, flight);
     if (impact.over) jumped[impact.pair->a] = jumped[impact.pair->b] = true;

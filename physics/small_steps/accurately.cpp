@@ -76,10 +76,9 @@ bool SmallSteps::Impl::advanceAccurately(Model& w, BodyId root, double dt, Accur
   return true;
 }
 
-// Where nothing bounces: a bounce has a time of its own within a substep.
 bool SmallSteps::Impl::stepsAccurately(const Model& w, const Batch& batch) const {
-  return w.settings.accuracy && batch.touches && w.settings.contact->restitution == 0 &&
-         batch.deformables.empty() && batch.softPairs.empty();
+  return w.settings.accuracy && batch.touches && batch.deformables.empty() &&
+         batch.softPairs.empty();
 }
 
 // The largest extent of what moves [m].

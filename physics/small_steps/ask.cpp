@@ -12,8 +12,8 @@ namespace {
 // a larger share of the body than meshes.
 constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 0.1;
 // Of what the springs are drawn by at rest nothing shows, but a column of n bodies that stand on
-// springs buckles under its own weight where the lowest gives way by 2 a / n^2 (7.84 EI = q L^3). On
-// the average of the load that is 0.38 of a cube's radius over (n/2)^2, n/2 being how often the
+// springs buckles under its own weight where the lowest gives way by 2 a / n^2 (7.84 EI = q L^3).
+// On the average of the load that is 0.38 of a cube's radius over (n/2)^2, n/2 being how often the
 // contacts carry the weight of an island: a quarter of it.
 constexpr double kLargestDrawn = 0.1;
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness

@@ -7,6 +7,10 @@
 
 namespace physics {
 
+namespace {
+constexpr double kClose = 1e-6;  // m: what is nearer than this touches
+}
+
 // At the start of a substep, with the velocities that nothing has stopped yet: gaps and approach.
 void SmallSteps::Impl::noteApproach(Model& w, Batch& batch, double h) {
   const double restitution = w.settings.contact ? w.settings.contact->restitution : 0;
@@ -20,7 +24,9 @@ void SmallSteps::Impl::noteApproach(Model& w, Batch& batch, double h) {
   forEachLane(batch, [&](const ContactBlock& block, int lane, int place) {
     ContactPair& pair = batch.impacts.pairs[place];
     for (int k = 0; k < pair.count; ++k) {
-      pair.points[k].loaded = block.point[k].lambda[lane] > 0;
+      // What was stopped before it touched has yet to hit.
+      pair.points[k].loaded =
+          block.point[k].lambda[lane] > 0 && !(pair.points[k].gapAtStart > kClose);
     }
   });
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kSteps = 3, kMostSweeps = 20, kMostSubsteps = 2;
 constexpr int kMostStepped = 300, kMostSeen = 3000;  // bodies
+constexpr int kMostWork = 2000;  // bodies times substeps of a step: more is not stepped again
 
 void cutShort(physics::Settings& settings) {
   settings.substeps = std::min(settings.substeps, kMostSubsteps);
@@ -38,6 +39,7 @@ Tried run(const scenes::Scene& scene) {
     if (k == kSteps || bodies > kMostStepped) return {app::ExitCode::kDone, ""};
     const physics::StepReport report = simulation.advance();
     if (report.notFinite) return {app::ExitCode::kCheckFailed, report.notFinite->constraint};
+    if (report.substeps * bodies > kMostWork) return {app::ExitCode::kDone, ""};
   }
 }
 
