@@ -77,6 +77,7 @@ void SmallSteps::Impl::makeAgain(Model& w, std::size_t index) {
   again.substeps = 2 * batch.substeps;
   again.sweeps = batch.sweeps;
   again.touches = batch.touches;
+  again.joined = batch.joined;
   again.isAgain = true;
   moveTo(w, batch, again);
 }

@@ -162,8 +162,7 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   weighMotion(w, batch, h);
   weighContacts(w, batch);
   askFiner(w, batch);
-  const bool takeTurns = !batch.articulations.empty() && batch.responders.empty();
-  const int most = takeTurns ? kMostJointedSweeps : kMostSweeps;
+  const int most = batch.takesTurns() ? kMostJointedSweeps : kMostSweeps;
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {

@@ -133,17 +133,22 @@ void emptyPoint(ContactBlock& block, int k, int l) {
   block.held[k][l] = p.lambda[l] = p.inverse[l] = 0;
 }
 
-// What lane l carried, of c: kept multipliers are scaled to substeps of h.
-void fillLoads(const KeptContact& c, double h, ContactBlock& block, int l) {
-  const double scale = substepRatio(c, h);
+// What lane l carried, of c: kept multipliers are scaled to substeps of h. `stayed`: only what has
+// been carried for two steps.
+void fillLoads(const KeptContact& c, double h, bool stayed, ContactBlock& block, int l) {
+  double all = 0, kept = 0, scale = substepRatio(c, h);
+  for (int k = 0; k < c.count; ++k) {
+    const double lambda = stayed ? std::min(c.lambda[k], c.before[k]) : c.lambda[k];
+    all += c.lambda[k];
+    kept += lambda;
+    block.point[k].lambda[l] = static_cast<float>(scale * lambda);
+    block.held[k][l] = static_cast<float>(h * h * c.held[k]);
+  }
+  if (kept < all) scale *= kept / all;
   block.twist[l] = static_cast<float>(scale * c.twist);
   block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
   block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
   block.change[l] = static_cast<float>(scale * c.tangential.z());
-  for (int k = 0; k < c.count; ++k) {
-    block.point[k].lambda[l] = static_cast<float>(scale * c.lambda[k]);
-    block.held[k][l] = static_cast<float>(h * h * c.held[k]);
-  }
 }
 
 // From where both bodies are pushed to the surface of a: half of the gap. Of what one surface has
@@ -187,7 +192,7 @@ void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& b
 }
 
 // Rows of a block at the present poses, for substeps of h.
-void SmallSteps::Impl::fill(const Model& w, double h, ContactBlock& block) const {
+void SmallSteps::Impl::fill(const Model& w, double h, bool takesTurns, ContactBlock& block) const {
   const Bodies& b = w.bodies;
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (block.contact[l] < 0) {
@@ -203,7 +208,9 @@ void SmallSteps::Impl::fill(const Model& w, double h, ContactBlock& block) const
     block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
     block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
     placeLane(c, b.pose, block, l);
-    fillLoads(c, h, block, l);
+    // Of a hit nothing is kept where joints would pass it on.
+    const bool isJointed = articulationOf[c.a] >= 0 || articulationOf[c.b] >= 0;
+    fillLoads(c, h, takesTurns && isJointed, block, l);
   }
 }
 
@@ -217,7 +224,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
   const float reach = static_cast<float>(w.settings.contact->margin);
   w.workers.forEachChunk(
       static_cast<int>(batch.blocks.size()), kLeastBlocks, [&](int from, int to) {
-        for (int i = from; i < to; ++i) fill(w, h, batch.blocks[i]);
+        for (int i = from; i < to; ++i) fill(w, h, batch.takesTurns(), batch.blocks[i]);
         contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), reach);
       });
   noteDeep(w, batch, h);

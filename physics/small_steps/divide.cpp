@@ -110,22 +110,25 @@ int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) 
   return static_cast<int>(std::min<double>(count, kMostSubsteps));
 }
 
-// What touches and what does not are apart: joints are closed further where no contact pushes.
-SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, int count, int sweepCount,
-                                              bool touches) {
+// Of an island, by its first body. What touches and what does not are apart: joints are closed
+// further where no contact pushes. So are islands whose contacts know other things of joints.
+SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, BodyId root) {
+  const bool touches = held[root] == Held::kTouching;
   const bool isAlone = w.settings.accuracy && touches;  // its steps are its own
   for (std::size_t k = 0; k < batchCount && !isAlone; ++k) {
     const Batch& batch = batches[k];
-    if (batch.substeps == count && batch.sweeps == sweepCount && batch.touches == touches) {
+    if (batch.substeps == substeps[root] && batch.sweeps == sweeps[root] &&
+        batch.touches == touches && batch.joined == joined[root]) {
       return batches[k];
     }
   }
   if (batchCount == batches.size()) batches.emplace_back();
   Batch& batch = batches[batchCount++];
   clear(batch);
-  batch.substeps = count;
-  batch.sweeps = sweepCount;
+  batch.substeps = substeps[root];
+  batch.sweeps = sweeps[root];
   batch.touches = touches;
+  batch.joined = joined[root];
   batch.isAgain = false;
   return batch;
 }
@@ -167,6 +170,7 @@ void SmallSteps::Impl::divide(Model& w, double dt, AccuracyReport& report) {
   for (const BodyId i : stepping) {
     batchOf[i] = -1;
     held[i] = Held::kNot;
+    joined[i] = Joined::kNot;
     substeps[i] = std::max(1, w.settings.substeps);
     sweeps[i] = 1;
   }
@@ -174,6 +178,10 @@ void SmallSteps::Impl::divide(Model& w, double dt, AccuracyReport& report) {
     const BodyId root = islands[i];
     substeps[root] = std::max(substeps[root], asked[i]);
     sweeps[root] = std::max(sweeps[root], askedSweeps[i]);
+    if (const int k = articulationOf[i]; k >= 0) {
+      joined[root] =
+          std::max(joined[root], responding[k] ? Joined::kResponds : Joined::kTakesTurns);
+    }
     if (articulationOf[i] >= 0 || deformableOf[i] >= 0) held[root] = Held::kJoined;
   }
   for (const KeptContact& c : contacts) {
@@ -225,7 +233,7 @@ void SmallSteps::Impl::assign(Model& w, double dt, AccuracyReport& report) {
       continue;
     }
     if (batchOf[root] < 0) {
-      const Batch& batch = batchFor(w, substeps[root], sweeps[root], held[root] == Held::kTouching);
+      const Batch& batch = batchFor(w, root);
       batchOf[root] = static_cast<int>(&batch - batches.data());
     }
     batchOf[i] = batchOf[root];

@@ -71,6 +71,8 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   weight.resize(bodies);
   energy.resize(bodies);
   held.resize(bodies);
+  joined.resize(bodies);
+  predicted.resize(bodies);
   opened.resize(bodies);
   change.resize(bodies);
 }

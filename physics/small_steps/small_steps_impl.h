@@ -5,6 +5,7 @@
 //   responses.cpp     contacts that see what joints make of what they give
 //   deep.cpp          overlaps that take more than a few substeps
 //   contact_motion.cpp bodies into these lanes, and back
+//   take_turns.cpp    contacts and joints in turns, and that no energy comes of it
 //   renew.cpp         rows anew of what has turned far
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds
@@ -67,12 +68,26 @@ constexpr int kLeastBodies = 64, kLeastBlocks = 8;
 
 constexpr int kMostSubsteps = 64;
 
+// Of what is swept: of ropes, of contacts in turns with joints, and of contacts about deep
+// overlaps, where a push finds its way through a column of five in that many.
+constexpr int kPositionSweeps = 4;
+
+// What contacts of an island know of joints: there are none; no more than each body's own mass, so
+// that contacts and joints take turns; the articulated mass of some.
+enum class Joined : char { kNot, kTakesTurns, kResponds };
+
+// Eight numbers, of the lanes of a block.
+struct alignas(32) LaneNumbers {
+  float of[ContactBlock::kLanes] = {};
+};
+
 // Islands of equal substeps and sweeps, which step side by side.
 struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
-  bool touches = false;  // contacts of rigid bodies, in every island of it
-  bool isDeep = false;   // it has overlaps that the push speed limits
-  bool isAgain = false;  // another attempt of what too few substeps took apart
+  bool touches = false;          // contacts of rigid bodies, in every island of it
+  Joined joined = Joined::kNot;  // in every island of it
+  bool isDeep = false;           // it has overlaps that the push speed limits
+  bool isAgain = false;          // another attempt of what too few substeps took apart
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
   JointPacks joints;                // of these articulations
@@ -90,6 +105,7 @@ struct SmallSteps::Batch {
   std::vector<KeptStart> kept;  // of `bodies`, where joints may have to make their step again
   std::vector<char> turned;     // by slot: so far that its rows are to be prepared anew
 
+  bool takesTurns() const { return joined == Joined::kTakesTurns; }
   // More than contacts of rigid bodies.
   bool isMixed() const {
     return !articulations.empty() || !deformables.empty() || !softRows.empty();
@@ -152,8 +168,11 @@ struct SmallSteps::Impl {
   std::vector<double> radius;   // by body, of its shape
   enum class Held : char { kNot, kJoined, kTouching };  // by joints or points; by contacts
   std::vector<Held> held;                               // of an island, by its first body
+  std::vector<Joined> joined;                           // the same
   std::vector<double> load, sag, energy, change;        // by body (island: by its first)
   std::vector<double> drawn, carried, weight;           // the same
+  std::vector<Displacement> predicted;                  // by body: before joints and contacts
+  std::vector<LaneNumbers> works;                       // scratch, by block
 
   void learn(Model& w);
   void learnAccurate(const Model& w, const std::vector<std::vector<JointRef>>& rows);
@@ -174,7 +193,7 @@ struct SmallSteps::Impl {
   void divide(Model& w, double dt, AccuracyReport& report);
   int substepsForApproach(const Model& w, const KeptContact& c) const;
   void assign(Model& w, double dt, AccuracyReport& report);
-  Batch& batchFor(const Model& w, int substeps, int sweeps, bool touches);
+  Batch& batchFor(const Model& w, BodyId root);
   int colourOf(const Bodies& b, const KeptContact& c);
   BodyId leaderOf(BodyId i) const;
   bool meetsResponse(const KeptContact& c) const;
@@ -206,7 +225,8 @@ struct SmallSteps::Impl {
   void takeGiven(Batch& batch, int slot);
   void toLanes(Model& w, Batch& batch);
   void fromLanes(Model& w, Batch& batch);
-  void sweepContactPositions(Model& w, Batch& batch, double h);
+  void warmStartContacts(Model& w, Batch& batch);
+  void sweepContactPositions(Model& w, Batch& batch, PositionSweep which);
   void sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which);
   void balanceContacts(Model& w, Batch& batch);
   void displaceBody(Model& w, BodyId i, double h);
@@ -215,6 +235,12 @@ struct SmallSteps::Impl {
   static void forEachLane(const Batch& batch, F&& f);
   void noteApproach(Model& w, Batch& batch, double h);
   void bounce(Model& w, Batch& batch, double h);
+  void solveContactPositions(Model& w, Batch& batch, const JointStage& stage);
+  void notePredicted(Batch& batch);
+  void addWork(const Model& w, const Batch& batch, std::vector<double>& work);
+  bool findRise(Model& w, Batch& batch);
+  void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares);
+  void boundWork(Model& w, Batch& batch, const JointStage& stage);
   void solvePositions(Model& w, Batch& batch, double h);
   void sweepDeformables(Model& w, Batch& batch, double h);
   void solveVelocities(Model& w, Batch& batch, double h);
@@ -248,7 +274,7 @@ struct SmallSteps::Impl {
   const std::function<void()>* wake = nullptr;  // of the present step
   bool fresh = true;      // nothing has stepped yet, or the state came from elsewhere
   bool learning = false;  // what contacts carry: they do not give way, nor push
-  void fill(const Model& w, double h, ContactBlock& block) const;
+  void fill(const Model& w, double h, bool takesTurns, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
   void noteDeep(const Model& w, Batch& batch, double h) const;
   std::vector<SoftPair> softPairs;

@@ -8,9 +8,6 @@
 namespace physics {
 namespace {
 
-constexpr int kPositionSweeps = 4;  // of what is swept
-// Of contacts about deep overlaps: a push finds its way through a column of five in that many.
-constexpr int kSweepsOfDeep = 4;
 // The share of a substep in the mean spin of jointed bodies, and how much of the mean turns arms
 // back: what turns the other way in each substep has a mean of none, and stays damped; of a swing a
 // tenth of its damping is left, without which chains under a heavy end gain energy.
@@ -210,20 +207,6 @@ void SmallSteps::Impl::sweepDeformables(Model& w, Batch& batch, double h) {
   }
 }
 
-// Contacts alone, in the lanes: colour by colour.
-void SmallSteps::Impl::sweepContactPositions(Model& w, Batch& batch, double h) {
-  const float push = static_cast<float>(w.settings.contact->maxSeparationSpeed * h);
-  sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
-    contactKernels().warmStart(blocks, count, batch.motions.data());
-  });
-  const int sweeps = batch.isDeep ? kSweepsOfDeep : 1;
-  for (int k = 0; k < sweeps; ++k) {
-    sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
-      contactKernels().sweepPositions(blocks, count, batch.motions.data(), push, k > 0);
-    });
-  }
-}
-
 void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which) {
   sweep(w, batch, {ContactRows::kNormal, ContactRows::kFriction},
         [&](ContactBlock* blocks, int count, ContactRows rows) {
@@ -251,14 +234,11 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
   if (w.settings.maxCorrectionSpeed) batch.joints.leave(stage, h * *w.settings.maxCorrectionSpeed);
+  notePredicted(batch);
   batch.joints.solvePositions(stage, true);
   if (count > 0) {
     profileScope("contact");
-    toLanes(w, batch);
-    respond(batch);
-    sweepContactPositions(w, batch, h);
-    if (batch.isMixed()) fromLanes(w, batch);
-    batch.joints.followPositions(stage);
+    solveContactPositions(w, batch, stage);
   }
   sweepDeformables(w, batch, h);
   profileScope("direct");
@@ -307,6 +287,7 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
     batch.joints.solveVelocities(stage);
     if (count > 0 && s + 1 < batch.sweeps) toLanes(w, batch);
   }
+  if (count > 0 && batch.takesTurns() && !learning) boundWork(w, batch, stage);
 }
 
 void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& report) {

@@ -77,6 +77,14 @@ struct alignas(32) ContactBlock {
 
 enum class ContactRows : char { kAll, kNormal, kFriction };
 
+struct PositionSweep {
+  float push = 0;  // overlap is taken back by no more [m]
+  // What a spring is drawn by under the load that it carries now does not count as overlap, as what
+  // it is drawn by under `held` does not.
+  bool isDrawnByLoad = false;
+  bool onlyDeep = false;  // only those of bodies that have something deep about them
+};
+
 struct VelocitySweep {
   ContactRows rows = ContactRows::kAll;
   bool first = false, last = false;  // of a substep: gaps are measured, the change is summed up
@@ -87,9 +95,10 @@ struct ContactKernels {
   // not count for the centre of friction.
   void (*prepare)(ContactBlock* blocks, int count, const LaneMass* masses, float reach);
   void (*warmStart)(ContactBlock* blocks, int count, LaneMotion* motions);
-  // `again`: only those of bodies that have something deep about them.
-  void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, float push,
-                         bool again);
+  // lambda^T J u of each lane: eight numbers to a block.
+  void (*measureWork)(const ContactBlock* blocks, int count, const LaneMotion* motions,
+                      float* work);
+  void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, PositionSweep which);
   void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions,
                           VelocitySweep which);
   // The same where the bodies stand: of the loads that hold them there.

@@ -29,6 +29,21 @@ inline void warmStartBlock(ContactBlock& m, LaneMotion* motions) {
   scatter(m.bodyB, load(m.massB), b, motions);
 }
 
+template <int kCount>
+inline Lanes workOf(const ContactBlock& m, const LaneMotion* motions) {
+  const Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
+  const Lanes3 between = a.u - b.u;
+  const Lanes along = dot(load(m.n), between);
+  Lanes sum = load(m.twist) * (dot(load(m.twistA), a.turn) - dot(load(m.twistB), b.turn));
+  for (int i = 0; i < kCount; ++i) {
+    sum = sum + load(m.point[i].lambda) * rateOf(m.point[i], along, a, b);
+  }
+  for (const ContactBlock::Tangent& t : m.tangent) {
+    sum = sum + load(t.lambda) * rateOf(t, dot(load(t.d), between), a, b);
+  }
+  return sum;
+}
+
 // lambda, where it is at most nu_s limit, else nu_d limit its way.
 inline Lanes onSegment(Lanes lambda, Lanes staticLimit, Lanes dynamicLimit) {
   const Lanes opposite = all(0) - lambda;
@@ -175,8 +190,8 @@ inline void balanceBlock(ContactBlock& m, LaneMotion* motions) {
 }
 
 // f(block, number of its points as a constant) of every block.
-template <class F>
-inline void forEachBlock(ContactBlock* blocks, int count, F&& f) {
+template <class Block, class F>
+inline void forEachBlock(Block* blocks, int count, F&& f) {
   for (int i = 0; i < count; ++i) {
     switch (blocks[i].points) {
       case 1:
@@ -202,10 +217,14 @@ void warmStartAll(ContactBlock* blocks, int count, LaneMotion* motions) {
     warmStartBlock<points.value>(block, motions);
   });
 }
-void sweepPositionsAll(ContactBlock* blocks, int count, LaneMotion* motions, float push,
-                       bool again) {
+void measureWorkAll(const ContactBlock* blocks, int count, const LaneMotion* motions, float* work) {
+  forEachBlock(blocks, count, [&](const ContactBlock& block, auto points) {
+    store(work + (&block - blocks) * ContactBlock::kLanes, workOf<points.value>(block, motions));
+  });
+}
+void sweepPositionsAll(ContactBlock* blocks, int count, LaneMotion* motions, PositionSweep which) {
   forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
-    sweepPositionsBlock<points.value>(block, motions, push, again);
+    sweepPositionsBlock<points.value>(block, motions, which);
   });
 }
 void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions, VelocitySweep which) {
@@ -222,7 +241,7 @@ void balanceAll(ContactBlock* blocks, int count, LaneMotion* motions) {
 
 }  // namespace
 
-const ContactKernels KERNELS = {prepareAll, warmStartAll, sweepPositionsAll, sweepVelocitiesAll,
-                                balanceAll};
+const ContactKernels KERNELS = {prepareAll,        warmStartAll,       measureWorkAll,
+                                sweepPositionsAll, sweepVelocitiesAll, balanceAll};
 
 }  // namespace physics

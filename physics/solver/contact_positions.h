@@ -21,29 +21,32 @@ inline void forgetFriction(ContactBlock& m, Lanes deep, Moved& a, Moved& b) {
 // Where overlaps are, and the share of them that a substep takes back.
 template <int kCount>
 struct Depths {
-  Lanes c[kCount], own = all(kTiny), near, full, share;
+  Lanes c[kCount], drawn[kCount], own = all(kTiny), near, full, share;
 
-  Depths(const ContactBlock& m, const Since& a, const Since& b, float pushed)
+  Depths(const ContactBlock& m, const Since& a, const Since& b, PositionSweep which)
       : near(larger(a.deepest, b.deepest)), full(load(m.scale) * load(m.rate)) {
-    const Lanes zero = all(0), apart = dot(load(m.n), a.u - b.u);
+    const Lanes zero = all(0), tiny = all(kTiny), apart = dot(load(m.n), a.u - b.u);
+    const Lanes gives = (all(1) - load(m.scale)) / larger(full, tiny);
     for (int i = 0; i < kCount; ++i) {
       c[i] = gapOf(m, i, apart, a, b);
-      own = larger(own, zero - (c[i] + load(m.drawn[i])));
+      drawn[i] = which.isDrawnByLoad
+                     ? gives * load(m.point[i].lambda) / larger(load(m.point[i].inverse), tiny)
+                     : load(m.drawn[i]);
+      own = larger(own, zero - (c[i] + drawn[i]));
     }
-    share = smaller(full, all(pushed) / larger(own, near));
+    share = smaller(full, all(which.push) / larger(own, near));
   }
 };
 
-// `again`: only where there is something deep.
 template <int kCount>
-inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float pushed, bool again) {
+inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSweep which) {
   const Depths<kCount> depths(m, gatherSince(m.bodyA, motions), gatherSince(m.bodyB, motions),
-                              pushed);
+                              which);
   const bool isNear = positive(depths.near) != 0;
-  if (again && !isNear) return;
+  if (which.onlyDeep && !isNear) return;
   Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
-  if (isNear && !again) {
-    const Lanes deep = depths.full * depths.own - all(pushed);
+  if (isNear && !which.onlyDeep) {
+    const Lanes deep = depths.full * depths.own - all(which.push);
     forgetFriction(m, wherePositive(depths.near, deep, all(0)), a, b);
   }
   const Lanes3 n = load(m.n);
@@ -56,12 +59,12 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, float push
   // Twice: the first point of a sweep is pushed for all, and the bodies would tilt.
   for (int pass = 0; pass < 2; ++pass) {
     for (int i = 0; i < kCount; ++i) {
-      const Lanes c = depths.c[i], drawn = load(m.drawn[i]), inverse = load(m.point[i].inverse);
+      const Lanes c = depths.c[i], drawn = depths.drawn[i], inverse = load(m.point[i].inverse);
       const Lanes scale = wherePositive(c, one, soft);
       const Lanes aim = wherePositive(c, c, depths.share * (c + drawn) - depths.full * drawn);
       const Lanes yields = (one - scale) * lambda[i];
       Lanes total = larger(lambda[i] - yields - inverse * (scale * v[i] + aim), zero);
-      if (again) total = wherePositive(depths.near, total, lambda[i]);
+      if (which.onlyDeep) total = wherePositive(depths.near, total, lambda[i]);
       const Lanes delta = total - lambda[i];
       lambda[i] = total;
       for (int j = 0; j < i; ++j) v[j] = v[j] + load(m.coupling[couplingOf(j, i)]) * delta;

@@ -268,7 +268,7 @@ TEST_P(ContactKernelsOf, GiveTheSameBytesInHalvesAndInOne) {
                         LaneMotion(&moved)[17]) {
     kernels.prepare(&block, 1, masses, 0.02f);
     kernels.warmStart(&block, 1, moved);
-    kernels.sweepPositions(&block, 1, moved, 0.01f, false);
+    kernels.sweepPositions(&block, 1, moved, {.push = 0.01f});
     for (int k = 0; k < 3; ++k) {
       kernels.sweepVelocities(&block, 1, moved, {.first = k == 0, .last = k == 2});
     }

@@ -1,0 +1,131 @@
+// Positions of contacts, in turns with the joints where they see no more than bodies' own masses;
+// and that what they give to islands with joints is no energy.
+#include <algorithm>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+
+// Contacts alone, in the lanes: colour by colour.
+void SmallSteps::Impl::warmStartContacts(Model& w, Batch& batch) {
+  sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
+    contactKernels().warmStart(blocks, count, batch.motions.data());
+  });
+}
+
+void SmallSteps::Impl::sweepContactPositions(Model& w, Batch& batch, PositionSweep which) {
+  sweep(w, batch, {ContactRows::kAll}, [&](ContactBlock* blocks, int count, ContactRows) {
+    contactKernels().sweepPositions(blocks, count, batch.motions.data(), which);
+  });
+}
+
+// Joints know what contacts carry before these are swept: by its own mass alone, a foot that bears
+// its figure would fly up under that, and the sweep would take all of it back. Where they take
+// turns, springs carry more than their bodies weigh, and are drawn far: substeps do not follow
+// that, as they do where bodies are single.
+void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const JointStage& stage) {
+  const bool takesTurns = batch.takesTurns();
+  const auto follow = [&] {
+    if (batch.isMixed()) fromLanes(w, batch);
+    batch.joints.followPositions(stage);
+  };
+  toLanes(w, batch);
+  respond(batch);
+  warmStartContacts(w, batch);
+  PositionSweep which = {
+      .push = static_cast<float>(w.settings.contact->maxSeparationSpeed * stage.h),
+      .isDrawnByLoad = takesTurns};
+  const int sweeps = takesTurns || batch.isDeep ? kPositionSweeps : 1;
+  for (int s = 0; s < sweeps; ++s) {
+    if (takesTurns) {
+      follow();
+      toLanes(w, batch);
+    }
+    which.onlyDeep = !takesTurns && s > 0;
+    sweepContactPositions(w, batch, which);
+  }
+  follow();
+}
+
+void SmallSteps::Impl::notePredicted(Batch& batch) {
+  if (!batch.takesTurns() || batch.blocks.empty()) return;
+  for (const BodyId i : batch.bodies) predicted[i] = moved[i];
+}
+
+// lambda^T J u of islands, by their first body, for what the lanes move by.
+void SmallSteps::Impl::addWork(const Model& w, const Batch& batch, std::vector<double>& work) {
+  works.resize(batch.blocks.size());
+  contactKernels().measureWork(batch.blocks.data(), static_cast<int>(batch.blocks.size()),
+                               batch.motions.data(), works.data()->of);
+  for (const BodyId i : batch.bodies) work[i] = 0;
+  for (std::size_t k = 0; k < batch.blocks.size(); ++k) {
+    const ContactBlock& block = batch.blocks[k];
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
+      const KeptContact& c = contacts[block.contact[l]];
+      work[islands[isMovable(w.bodies, c.a) ? c.a : c.b]] += works[k].of[l];
+    }
+  }
+}
+
+// Contacts and friction give lambda^T J (u0 + u1) / 2 of energy, from what was predicted to what
+// the velocity stage ends with. Where that is more than nothing, `change` is the share of lambda
+// which is too much: with s lambda it is s lambda^T J u0 + s^2 lambda^T J (u1 - u0) / 2. True:
+// there is some.
+bool SmallSteps::Impl::findRise(Model& w, Batch& batch) {
+  const auto swap = [&] {
+    for (const BodyId i : batch.bodies) std::swap(moved[i], predicted[i]);
+  };
+  swap();
+  toLanes(w, batch);
+  addWork(w, batch, load);
+  swap();
+  toLanes(w, batch);
+  addWork(w, batch, carried);
+  bool some = false;
+  for (const BodyId i : batch.bodies) {
+    const double before = load[i], more = carried[i] - load[i];
+    change[i] = 0;
+    if (islands[i] != i || !(before + carried[i] > 0) || !(more > 0)) continue;
+    change[i] = std::clamp(1 + 2 * before / more, 0.0, 1.0);
+    some = true;
+  }
+  return some;
+}
+
+// These shares of what the lanes of a block carry, from it and from its bodies.
+void SmallSteps::Impl::takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares) {
+  ContactBlock back = block;
+  for (int l = 0; l < ContactBlock::kLanes; ++l) {
+    const auto scale = [l](ContactBlock& of, float by) {
+      for (int k = 0; k < of.points; ++k) of.point[k].lambda[l] *= by;
+      for (auto& t : of.tangent) t.lambda[l] *= by;
+      of.twist[l] *= by;
+    };
+    scale(back, -shares.of[l]);
+    scale(block, 1 - shares.of[l]);
+  }
+  contactKernels().warmStart(&back, 1, batch.motions.data());
+}
+
+// Contacts take back by a body's own mass what they gave too much, but joints pass on to the others
+// most of what it was given: what a hit leaves behind would throw figures.
+void SmallSteps::Impl::boundWork(Model& w, Batch& batch, const JointStage& stage) {
+  if (!findRise(w, batch)) return;
+  for (ContactBlock& block : batch.blocks) {
+    LaneNumbers shares;
+    bool some = false;
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
+      const KeptContact& c = contacts[block.contact[l]];
+      const double share = change[islands[isMovable(w.bodies, c.a) ? c.a : c.b]];
+      shares.of[l] = static_cast<float>(share);
+      some = some || share > 0;
+    }
+    if (some) takeBack(batch, block, shares);
+  }
+  fromLanes(w, batch);
+  batch.joints.solveVelocities(stage);
+}
+
+}  // namespace physics
