@@ -236,7 +236,7 @@ struct SmallSteps::Impl {
   void noteApproach(Model& w, Batch& batch, double h);
   void bounce(Model& w, Batch& batch, double h);
   void solveContactPositions(Model& w, Batch& batch, const JointStage& stage);
-  void notePredicted(Batch& batch);
+  void startTurns(Model& w, Batch& batch);
   void addWork(const Model& w, const Batch& batch, std::vector<double>& work);
   bool findRise(Model& w, Batch& batch);
   void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares);

@@ -234,8 +234,9 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
   if (w.settings.maxCorrectionSpeed) batch.joints.leave(stage, h * *w.settings.maxCorrectionSpeed);
-  notePredicted(batch);
-  batch.joints.solvePositions(stage, true);
+  batch.joints.seePositions(stage);
+  if (count > 0 && batch.takesTurns()) startTurns(w, batch);
+  batch.joints.followPositions(stage);
   if (count > 0) {
     profileScope("contact");
     solveContactPositions(w, batch, stage);

@@ -20,9 +20,17 @@ void SmallSteps::Impl::sweepContactPositions(Model& w, Batch& batch, PositionSwe
 }
 
 // Joints know what contacts carry before these are swept: by its own mass alone, a foot that bears
-// its figure would fly up under that, and the sweep would take all of it back. Where they take
-// turns, springs carry more than their bodies weigh, and are drawn far: substeps do not follow
-// that, as they do where bodies are single.
+// its figure would fly up under that, and the sweep would take all of it back. For the same reason
+// the rows of joints are those of before: evaluated where the foot has flown to, they open.
+void SmallSteps::Impl::startTurns(Model& w, Batch& batch) {
+  for (const BodyId i : batch.bodies) predicted[i] = moved[i];
+  toLanes(w, batch);
+  warmStartContacts(w, batch);
+  fromLanes(w, batch);
+}
+
+// Where they take turns, springs carry more than their bodies weigh, and are drawn far: substeps do
+// not follow that, as they do where bodies are single.
 void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const JointStage& stage) {
   const bool takesTurns = batch.takesTurns();
   const auto follow = [&] {
@@ -30,14 +38,16 @@ void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const Joint
     batch.joints.followPositions(stage);
   };
   toLanes(w, batch);
-  respond(batch);
-  warmStartContacts(w, batch);
+  if (!takesTurns) {
+    respond(batch);
+    warmStartContacts(w, batch);
+  }
   PositionSweep which = {
       .push = static_cast<float>(w.settings.contact->maxSeparationSpeed * stage.h),
       .isDrawnByLoad = takesTurns};
   const int sweeps = takesTurns || batch.isDeep ? kPositionSweeps : 1;
   for (int s = 0; s < sweeps; ++s) {
-    if (takesTurns) {
+    if (takesTurns && s > 0) {
       follow();
       toLanes(w, batch);
     }
@@ -45,11 +55,6 @@ void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const Joint
     sweepContactPositions(w, batch, which);
   }
   follow();
-}
-
-void SmallSteps::Impl::notePredicted(Batch& batch) {
-  if (!batch.takesTurns() || batch.blocks.empty()) return;
-  for (const BodyId i : batch.bodies) predicted[i] = moved[i];
 }
 
 // lambda^T J u of islands, by their first body, for what the lanes move by.

@@ -82,8 +82,8 @@ void JointPacks::leave(const JointStage& stage, double most) {
   forEach([&](auto& pack) { pack.leave(stage, most); });
 }
 
-void JointPacks::solvePositions(const JointStage& stage, bool first) {
-  forEach([&](auto& pack) { pack.solvePositions(stage, first); });
+void JointPacks::seePositions(const JointStage& stage) {
+  forEach([&](auto& pack) { pack.seePositions(stage); });
 }
 
 void JointPacks::followPositions(const JointStage& stage) {

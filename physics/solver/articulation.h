@@ -104,7 +104,7 @@ class JointPack {
   void take(std::span<Articulation* const> articulations);
   void stiffen(std::span<Mat3> stiffness) const;
   void leave(const JointStage& stage, double most);
-  void solvePositions(const JointStage& stage, bool first);
+  void seePositions(const JointStage& stage);
   void followPositions(const JointStage& stage);
   void closePositions(const JointStage& stage, double tolerance);
   void prepareVelocities(const JointStage& stage);
@@ -183,11 +183,11 @@ class JointPacks {
  public:
   void take(std::span<Articulation> articulations, std::span<const int> which);
   void stiffen(std::span<Mat3> stiffness) const;  // adds what joints pull with, by BodyId
-  // Before the first solve of a substep, where errors are taken back by at most so much [m, rad].
+  // Before the substep, where errors are taken back by at most so much [m, rad].
   void leave(const JointStage& stage, double most);
-  // Evaluates the rows, and solves for positions: `first` begins a substep.
-  void solvePositions(const JointStage& stage, bool first);
-  // What was given to bodies since, by the same rows.
+  // Begins a substep: evaluates the rows where the bodies are. Then, as often as they were given
+  // something since, solves for positions by these rows.
+  void seePositions(const JointStage& stage);
   void followPositions(const JointStage& stage);
   // As often as it takes until what is off is `tolerance` of the arms, before another step.
   void closePositions(const JointStage& stage, double tolerance);

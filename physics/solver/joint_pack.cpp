@@ -373,29 +373,24 @@ void JointPack<W>::step() {
 }
 
 template <int W>
-void JointPack<W>::solvePositions(const JointStage& stage, bool first) {
+void JointPack<W>::seePositions(const JointStage& stage) {
   openAll();
   gatherMotion<W>(ids_, stage.moved, bodies_);
-  if (first) {
-    gatherMasses<W>(ids_, stage.masses, bodies_);
-    gatherPoses<W>(ids_, stage.pose, bodies_);
-    for (std::size_t i = 0; i < ids_.size() && !stage.spin.empty(); ++i) {
-      write(bodies_[i / W].back, i % W, (stage.h * stage.spin[ids_[i]]).eval());
-    }
-    for (JointBody<W>& body : bodies_) {
-      std::copy(std::begin(body.x), std::end(body.x), std::begin(body.startX));
-      std::copy(std::begin(body.q), std::end(body.q), std::begin(body.startQ));
-    }
+  gatherMasses<W>(ids_, stage.masses, bodies_);
+  gatherPoses<W>(ids_, stage.pose, bodies_);
+  for (std::size_t i = 0; i < ids_.size() && !stage.spin.empty(); ++i) {
+    write(bodies_[i / W].back, i % W, (stage.h * stage.spin[ids_[i]]).eval());
   }
-  see(stage, first);
-  if (first) {
-    if (began_) noteCarried();
-    began_ = true;
-    begin();
-    chooseFree();
+  for (JointBody<W>& body : bodies_) {
+    std::copy(std::begin(body.x), std::end(body.x), std::begin(body.startX));
+    std::copy(std::begin(body.q), std::end(body.q), std::begin(body.startQ));
   }
+  see(stage, true);
+  if (began_) noteCarried();
+  began_ = true;
+  begin();
+  chooseFree();
   noteSeen();
-  step();
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
