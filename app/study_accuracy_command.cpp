@@ -9,6 +9,7 @@
 #include "app/gnuplot.h"
 #include "app/interrupt.h"
 #include "app/study_accuracy.h"
+#include "app/study_asked.h"
 #include "app/study_commands.h"
 #include "app/study_page.h"
 #include "app/study_plot.h"
@@ -124,6 +125,18 @@ bool illustrate(const AccuracyOptions& options, bool hasGnuplot, const fs::path&
   return !interrupted() && drawShots(results, chapter.shots, folder, options.fresh);
 }
 
+void drawAsked(const std::vector<StudyChapter>& chapters, const fs::path& folder) {
+  const std::vector<AskedPoint> asked = askedPoints(resultsOf(chapters));
+  if (!asked.empty()) runGnuplot(askedScript(asked), folder, "asked");
+}
+
+// What all cases say together.
+std::string totals(const std::vector<StudyChapter>& chapters) {
+  const std::vector<const StudyResults*> results = resultsOf(chapters);
+  const std::string asked = askedText(askedPoints(results));
+  return (asked.empty() ? "" : asked + "\n") + goalsText(results) + "\n";
+}
+
 ExitCode accuracy(const AccuracyOptions& options) {
   std::vector<StudyCase> cases = readCases(options);
   if (options.list) return listCases(cases);
@@ -143,11 +156,13 @@ ExitCode accuracy(const AccuracyOptions& options) {
     allMeasured = allMeasured && ends.problem.empty();
     summary += ends.problem.empty() ? summaryText(*chapter.results) : ends.problem + "\n";
     chapters.push_back(std::move(chapter));
+    if (hasGnuplot) drawAsked(chapters, folder);
     writeStudyPage(chapters, commandLine(options), folder);  // so that it can be looked at
   }
   accuracy.finish();
   if (!hasGnuplot) note(kNoGnuplot);
-  if (!options.common.quiet) say(summary + (folder / "index.html").string() + "\n");
+  if (!options.common.quiet)
+    say(summary + totals(chapters) + (folder / "index.html").string() + "\n");
   return allMeasured ? ExitCode::kDone : ExitCode::kCheckFailed;
 }
 
@@ -158,7 +173,8 @@ constexpr const char* kAccuracyHelp =
     "the case's steps, substeps, iterations and methods, other engines among them, and writes "
     "into\n"
     "DIR: points.csv, work-precision diagrams NAME.svg and NAME.png, error against the step\n"
-    "NAME_h.svg and NAME_h.png, and index.html with everything. What was measured by the same\n"
+    "NAME_h.svg and NAME_h.png, accuracy asked for against accuracy delivered, asked.csv,\n"
+    "asked.svg and asked.png, and index.html with everything. What was measured by the same\n"
     "program from the same files is not measured again: an interrupted study goes on.";
 
 }  // namespace

@@ -88,8 +88,8 @@ PlotFrame makeFrame(const StudyResults& results, double (*x)(const StudyPoint&),
   PlotFrame frame;
   Range xs, ys;
   for (const StudyPoint& point : results.points) {
-    const bool drawn = point.isOk() || point.isFailure();
-    if (drawn) xs.include(x(point));
+    if (!(x(point) > 0)) continue;  // it has no place in this diagram
+    if (point.isOk() || point.isFailure()) xs.include(x(point));
     if (point.isOk()) ys.include(point.errors.error);
     frame.hasStrip = frame.hasStrip || point.isFailure();
   }

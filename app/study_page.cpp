@@ -10,6 +10,7 @@
 #include "app/machine.h"
 #include "app/output_file.h"
 #include "app/peers/peer.h"
+#include "app/study_asked.h"
 #include "app/study_section.h"
 
 namespace app {
@@ -44,6 +45,42 @@ std::string busyRemark(const std::vector<StudyChapter>& chapters) {
       busy, chapters.size(), load, processorCount());
 }
 
+std::string askedRow(const AskedPoint& p) {
+  const std::string delivered =
+      p.point->isOk() ? numberText(p.delivered) : escapeHtml(statusName(p.point->status));
+  return fmt::format(
+      "<tr><td><a href=\"#{0}\">{0}</a></td><td class=\"number\">{1}</td><td "
+      "class=\"number\">{2}</td><td class=\"number\">{3}</td><td class=\"number\">{4}</td>"
+      "<td class=\"quiet\">{5}</td></tr>\n",
+      escapeHtml(p.study), accuracyText(p.asked), delivered,
+      p.point->estimate > 0 ? numberText(p.point->estimate) : "none", numberText(p.reference),
+      p.verdict == AskedPoint::Verdict::kUnjudged ? "the reference is no better than what was asked"
+                                                  : escapeHtml(p.point->message));
+}
+
+std::string askedSection(const std::vector<AskedPoint>& points, bool plotted) {
+  if (points.empty()) return "";
+  std::string html = "<section><h2>Asked and delivered</h2>\n<p>" + askedText(points) +
+                     ". <a href=\"asked.csv\">asked.csv</a> has them all.</p>\n";
+  if (plotted) {
+    html +=
+        "<figure><a href=\"asked.png\"><img class=\"poster\" src=\"asked.svg\" alt=\"accuracy "
+        "delivered over accuracy asked for\"></a><figcaption>Those that were asked for the same "
+        "stand beside each other in the order of the cases.</figcaption></figure>\n";
+  }
+  std::string rows;
+  for (const AskedPoint& point : points) {
+    if (point.verdict != AskedPoint::Verdict::kDelivered) rows += askedRow(point);
+  }
+  if (!rows.empty()) {
+    html +=
+        "<p>Not within:</p>\n<table><tr><th>case</th><th>asked</th><th>delivered</th>"
+        "<th>estimated, of a step</th><th>reference's own</th><th></th></tr>\n" +
+        rows + "</table>\n";
+  }
+  return html + "</section>\n";
+}
+
 std::string contents(const std::vector<StudyChapter>& chapters) {
   std::string html =
       "<section><h2>Cases</h2>\n<table><tr><th>case</th><th>cheapest of ours to 1 "
@@ -65,12 +102,13 @@ std::string contents(const std::vector<StudyChapter>& chapters) {
                                                      results.methodTitle(*ours))),
                         cell(rows[0]), cell(rows[1]));
   }
-  return html + "</table></section>\n";
+  return html + "</table>\n<p>" + escapeHtml(goalsText(resultsOf(chapters))) + ".</p></section>\n";
 }
 
 constexpr const char* kHowMeasured =
     "<details><summary>How this was measured</summary>\n<p>Each point simulates a whole case with "
-    "one method and one step. Its time is what the steps took, the least of the "
+    "one method and one step, or by one accuracy that the method is asked for. Its time is what "
+    "the steps took, the least of the "
     "repeats, per simulated second; measuring is not in it. Points were measured one after "
     "the other. "
     "<em>Real time</em> is one second per simulated second: 1/60 s for a frame of 1/60 s. The "
@@ -85,12 +123,25 @@ constexpr const char* kHowMeasured =
 
 }  // namespace
 
+std::vector<const StudyResults*> resultsOf(const std::vector<StudyChapter>& chapters) {
+  std::vector<const StudyResults*> results;
+  for (const StudyChapter& chapter : chapters) {
+    if (chapter.problem.empty()) results.push_back(chapter.results);
+  }
+  return results;
+}
+
 std::filesystem::path writeStudyPage(const std::vector<StudyChapter>& chapters,
                                      const std::string& command,
                                      const std::filesystem::path& folder) {
+  const std::vector<AskedPoint> asked = askedPoints(resultsOf(chapters));
+  if (!asked.empty()) writeFile(folder / "asked.csv", askedTable(asked));
+  const bool plotted = std::any_of(chapters.begin(), chapters.end(),
+                                   [](const StudyChapter& chapter) { return chapter.plotted; });
   std::string body = "<h1>What accuracy costs in time</h1>\n<p class=\"quiet\">" +
                      escapeHtml(machineText()) + ".<br><code>" + escapeHtml(command) +
-                     "</code></p>\n" + busyRemark(chapters) + kHowMeasured;
+                     "</code></p>\n" + askedSection(asked, plotted) + busyRemark(chapters) +
+                     kHowMeasured;
   if (!chapters.empty()) body += contents(chapters);
   for (const StudyChapter& chapter : chapters) body += caseSection(chapter);
   const std::filesystem::path page = folder / "index.html";

@@ -17,7 +17,10 @@ struct StudyChapter {
   std::string problem;  // why it has no points
 };
 
-// `command`: what made it.
+// The results of those that have points.
+std::vector<const StudyResults*> resultsOf(const std::vector<StudyChapter>& chapters);
+
+// index.html and, where a method was asked for accuracies, asked.csv. `command`: what made it.
 std::filesystem::path writeStudyPage(const std::vector<StudyChapter>& chapters,
                                      const std::string& command,
                                      const std::filesystem::path& folder);

@@ -11,17 +11,27 @@ namespace app {
 namespace {
 
 // At most `most` of the values, the ends among them.
-std::vector<int> thinned(std::vector<int> values, std::size_t most) {
+template <class T>
+std::vector<T> thinned(std::vector<T> values, std::size_t most) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   if (values.size() <= most) return values;
-  std::vector<int> result;
+  std::vector<T> result;
   for (std::size_t i = 0; i < most; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(most - 1);
     const double at = share * static_cast<double>(values.size() - 1);
     result.push_back(values[static_cast<std::size_t>(std::lround(at))]);
   }
   return result;
+}
+
+// The points of a method that is asked for accuracies, the coarsest first.
+void planAsked(const std::vector<double>& accuracies, const PlannedPoint& first,
+               std::vector<PlannedPoint>& plan) {
+  for (std::size_t i = accuracies.size(); i-- > 0;) {
+    plan.push_back(first);
+    plan.back().key.accuracy = accuracies[i];
+  }
 }
 
 template <class Better>
@@ -40,6 +50,11 @@ std::vector<PlannedPoint> planPoints(const scenes::StudyCase& study, bool quick)
   std::vector<PlannedPoint> plan;
   for (std::size_t m = 0; m < study.methods.size(); ++m) {
     const scenes::StudyGrid& grid = study.grids[m];
+    if (study.methods[m].asks) {
+      planAsked(thinned(grid.accuracies, quick ? 3 : kAll),
+                {static_cast<int>(m), {study.name, study.methods[m].name}}, plan);
+      continue;
+    }
     const auto begin = plan.size();
     for (const int iterations : thinned(grid.iterations, quick ? 2 : kAll)) {
       for (const int steps : thinned(grid.steps, quick ? 2 : kAll)) {
@@ -85,6 +100,11 @@ std::vector<const StudyPoint*> StudyResults::peers() const {
   return result;
 }
 
+bool StudyResults::hasSteps() const {
+  return std::any_of(points.begin(), points.end(),
+                     [](const StudyPoint& point) { return point.isOk() && point.h > 0; });
+}
+
 const StudyPoint* StudyResults::best() const {
   return choose(points, [](const StudyPoint& a, const StudyPoint& b) {
     return a.errors.error < b.errors.error;
@@ -122,7 +142,8 @@ std::optional<OrderFit> StudyResults::order(int method) const {
   std::vector<StepError> pairs;
   for (const StudyPoint* point : own) {
     const bool same = point->key.iterations == best->key.iterations;
-    if (point->isOk() && same) pairs.push_back({point->h, root(point->errors.error)});
+    if (point->isOk() && same && point->h > 0)
+      pairs.push_back({point->h, root(point->errors.error)});
   }
   return fitOrder(pairs, kFloor * root(reference.accuracy.value_or(0)),
                   kCeiling * root(study.scale));

@@ -15,7 +15,7 @@ struct PlannedPoint {
 };
 
 // In the order of measuring: method by method, iterations by iterations, the coarsest first.
-// `quick`: at most four substeps, two iterations and two numbers of steps.
+// `quick`: at most four substeps, two iterations and two numbers of steps, three accuracies.
 std::vector<PlannedPoint> planPoints(const scenes::StudyCase& study, bool quick);
 
 struct StudyReferenceReport {
@@ -33,6 +33,7 @@ struct StudyResults {
   std::vector<const StudyPoint*> of(int method) const;  // its points
   std::vector<const StudyPoint*> ours() const;          // of all methods that are not peers
   std::vector<const StudyPoint*> peers() const;
+  bool hasSteps() const;            // a point that is ok has a step of its own
   const StudyPoint* best() const;   // the smallest error; null: nothing is ok
   const StudyPoint* worst() const;  // the largest error that is still ok
   int methodOf(const StudyPoint& point) const;

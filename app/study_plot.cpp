@@ -63,7 +63,7 @@ class Series {
                    const std::string& style) {
     std::string rows;
     for (const StudyPoint* point : points) {
-      if (point->isFailure() && x(*point) > 0) rows += fmt::format("{:.9g} {:.9g}\n", x(*point), y);
+      if (point->isFailure()) rows += fmt::format("{:.9g} {:.9g}\n", x(*point), y);
     }
     if (rows.empty()) return;
     data_ += fmt::format("${} << EOD\n{}EOD\n", name, rows);
@@ -97,7 +97,9 @@ void addMethods(const StudyResults& results, const PlotFrame& frame, Abscissa x,
   const int count = static_cast<int>(results.study.methods.size());
   for (int m = 0; m < count; ++m) {
     const StudyMethod& method = results.study.methods[static_cast<std::size_t>(m)];
-    const Points all = results.of(m), chosen = choose(all);
+    Points all = results.of(m);
+    std::erase_if(all, [&](const StudyPoint* point) { return !(x(*point) > 0); });
+    const Points chosen = choose(all);
     Points others;
     for (const StudyPoint* point : all) {
       const bool isChosen = std::find(chosen.begin(), chosen.end(), point) != chosen.end();
@@ -183,6 +185,7 @@ std::string convergenceScript(const StudyResults& results) {
 void drawPlots(const StudyResults& results, const fs::path& folder) {
   if (results.best() == nullptr) return;
   runGnuplot(workPrecisionScript(results), folder, results.study.name);
+  if (!results.hasSteps()) return;
   runGnuplot(convergenceScript(results), folder, results.study.name + "_h");
 }
 

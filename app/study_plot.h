@@ -13,7 +13,8 @@ std::string workPrecisionScript(const StudyResults& results);
 std::string convergenceScript(const StudyResults& results);
 
 // Writes the scripts NAME.gp and NAME_h.gp into the folder and runs them there. Throws
-// EnvironmentError with what gnuplot said. Nothing where no point is ok.
+// EnvironmentError with what gnuplot said. Nothing where no point is ok; what has no step is not
+// in NAME_h.
 void drawPlots(const StudyResults& results, const std::filesystem::path& folder);
 
 }  // namespace app

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -51,6 +52,8 @@ void columns(V& v, P& p) {
   v("load", p.load);
   v("inputs", p.inputs);
   v("message", p.message);
+  v("accuracy", p.key.accuracy);
+  v("estimate", p.estimate);
 }
 
 struct Heads {
@@ -121,7 +124,13 @@ double StudyKey::work() const {
   return static_cast<double>(steps) * substeps * std::max(1, iterations);
 }
 
+std::string accuracyText(double accuracy) {
+  const int exponent = static_cast<int>(std::floor(std::log10(accuracy) + 1e-9));
+  return fmt::format("{:.3g}e{}", accuracy * std::pow(10.0, -exponent), exponent);
+}
+
 std::string StudyKey::text() const {
+  if (accuracy > 0) return "accuracy " + accuracyText(accuracy);
   std::string text = steps > 1 ? fmt::format("{} x ", steps) : "";
   text += fmt::format("{} substep{}", substeps, substeps == 1 ? "" : "s");
   if (iterations > 0)

@@ -13,11 +13,12 @@ namespace app {
 struct StudyKey {
   std::string study, method;
   int steps = 1, substeps = 1;
-  int iterations = 0;  // 0: the scene's own
+  int iterations = 0;   // 0: the scene's own
+  double accuracy = 0;  // asked for, relative; 0: none is, the steps say how fine
 
   bool operator==(const StudyKey&) const = default;
   double work() const;       // sweeps per sample, as far as the key says
-  std::string text() const;  // "4 x 20 substeps, 8 iterations"
+  std::string text() const;  // "4 x 20 substeps, 8 iterations", "accuracy 1e-3"
 };
 
 struct StudyPoint {
@@ -30,7 +31,7 @@ struct StudyPoint {
     kSkipped,    // not measured: it would have taken too long
   };
   StudyKey key;
-  double h = 0;  // s
+  double h = 0;  // s; 0: the method chooses its steps
   Status status = Status::kOk;
   scenes::StudyErrors errors;
   scenes::StudyWorst worst;
@@ -42,6 +43,7 @@ struct StudyPoint {
   double evaluations = 0;  // of constraints
   double sweeps = 0;
   double restarts = 0, fallbacks = 0;  // of second-order steps
+  double estimate = 0;                 // of the error, by the method that was asked; relative
   std::string inputs;                  // hash of all that the numbers depend on
   std::string message;                 // why it is not ok
 
@@ -52,6 +54,7 @@ struct StudyPoint {
   bool isFailure() const;  // it ran, and its result is worthless
 };
 
+std::string accuracyText(double accuracy);  // "1e-3"
 const char* statusName(StudyPoint::Status status);
 
 // points.csv: a line for the heads, then one for each point. Numbers carry 9 digits.

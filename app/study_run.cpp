@@ -31,6 +31,7 @@ template <class Report>
 void count(const Report& report, StudyCounts& counts) {
   counts.evaluations += static_cast<double>(report.constraintEvaluations);
   counts.sweeps += report.iterations;
+  counts.estimate = std::max(counts.estimate, report.accuracy.estimate);
   if constexpr (requires { report.restarts; }) counts.restarts += report.restarts;
   if constexpr (requires { report.fallbacks; }) counts.fallbacks += report.fallbacks;
 }
@@ -122,6 +123,7 @@ void fillCounts(const StudyCounts& counts, double simulated, StudyPoint& point) 
   point.sweeps = counts.sweeps / simulated;
   point.restarts = counts.restarts / simulated;
   point.fallbacks = counts.fallbacks / simulated;
+  point.estimate = counts.estimate;
 }
 
 // False: interrupted.
@@ -146,6 +148,7 @@ bool measure(const StudyCase& study, const StudyMethod& method, const scenes::St
 }  // namespace
 
 double stepOf(const StudyCase& study, const StudyKey& key) {
+  if (key.accuracy > 0) return 0;
   return 1 / (static_cast<double>(study.fps) * key.steps * key.substeps);
 }
 
@@ -157,6 +160,7 @@ std::vector<std::string> overridesOf(const scenes::StudyGrid& grid, const StudyM
   set.push_back(fmt::format("simulation.fps={}", study.fps * key.steps));
   set.push_back(fmt::format("simulation.substeps={}", key.substeps));
   if (key.iterations > 0) set.push_back(fmt::format("simulation.iterations={}", key.iterations));
+  if (key.accuracy > 0) set.push_back(fmt::format("simulation.accuracy={}", key.accuracy));
   return set;
 }
 

@@ -17,6 +17,7 @@ std::vector<std::string> overridesOf(const scenes::StudyGrid& grid,
 
 struct StudyCounts {  // over a run
   double evaluations = 0, sweeps = 0, restarts = 0, fallbacks = 0;
+  double estimate = 0;  // of the error of a step, relative; the largest
 };
 
 // One simulation of a point.
@@ -55,7 +56,7 @@ std::optional<StudyPoint> measurePoint(const scenes::StudyCase& study,
                                        const scenes::StudyGrid& grid, const StudyKey& key,
                                        const scenes::StudyTrace& truth, const StudyEffort& effort);
 
-// h of a key [s].
+// h of a key [s]; 0: it asks for an accuracy instead.
 double stepOf(const scenes::StudyCase& study, const StudyKey& key);
 
 }  // namespace app

@@ -53,8 +53,9 @@ std::string publishedText(const StudyResults& results) {
 std::string diagrams(const StudyChapter& chapter) {
   if (!chapter.plotted) return "";
   const std::string name = escapeHtml(chapter.results->study.name);
-  return diagram(name, "error against time") + diagram(name + "_h", "error against the step") +
-         publishedText(*chapter.results);
+  std::string html = diagram(name, "error against time");
+  if (chapter.results->hasSteps()) html += diagram(name + "_h", "error against the step");
+  return html + publishedText(*chapter.results);
 }
 
 std::string pictures(const StudyChapter& chapter) {
@@ -71,9 +72,10 @@ std::string pictures(const StudyChapter& chapter) {
 
 std::string reached(const StudyResults& results, const StudyPoint* point) {
   if (point == nullptr) return "<span class=\"quiet\">not reached</span>";
-  return escapeHtml(fmt::format("{} per s: {}, h = {} s, {}", secondsText(point->cost()),
-                                results.methodTitle(*point), numberText(point->h),
-                                point->key.text()));
+  std::string step = stepText(*point);
+  if (point->h > 0) step += ", " + point->key.text();
+  return escapeHtml(fmt::format("{} per s: {}, {}", secondsText(point->cost()),
+                                results.methodTitle(*point), step));
 }
 
 std::string cheapestTable(const StudyResults& results) {
@@ -95,7 +97,13 @@ std::string cheapestTable(const StudyResults& results) {
   return html + "</table>\n";
 }
 
-std::string orderCell(const std::optional<OrderFit>& fit) {
+// A step where the method has one, else the accuracy that it was asked for.
+std::string fineness(const StudyPoint& point) {
+  return point.h > 0 ? numberText(point.h) : point.key.text();
+}
+
+std::string orderCell(const StudyPoint& best, const std::optional<OrderFit>& fit) {
+  if (best.h == 0) return "<td class=\"quiet\">it chooses</td>";
   if (!fit) return "<td class=\"quiet\">no range converges</td>";
   return fmt::format("<td>{:.2f} ± {:.2f}, {} points</td>", fit->order, fit->deviation,
                      fit->points);
@@ -121,9 +129,9 @@ std::string methodTable(const StudyResults& results) {
       html += "<td></td><td></td><td></td><td></td><td></td><td></td><td></td><td></td>";
     } else {
       const StudyPoint& best = *row.best;
-      html += orderCell(row.order);
+      html += orderCell(best, row.order);
       for (const std::string& text :
-           {numberText(best.errors.error), numberText(best.h), secondsText(best.cost()),
+           {numberText(best.errors.error), fineness(best), secondsText(best.cost()),
             numberText(best.worst.residual), numberText(best.worst.overlap),
             numberText(best.worst.energyDrift), numberText(best.worst.momentumDrift)}) {
         html += "<td class=\"number\">" + text + "</td>";
@@ -139,7 +147,7 @@ std::string pointRow(const StudyResults& results, const StudyPoint& point) {
       fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escapeHtml(results.methodTitle(point)),
                   point.key.text(), point.isOk() ? "ok" : statusName(point.status));
   for (const std::string& text :
-       {numberText(point.h), numberText(point.errors.error), numberText(point.errors.last),
+       {fineness(point), numberText(point.errors.error), numberText(point.errors.last),
         numberText(point.worst.residual), numberText(point.worst.overlap),
         numberText(point.worst.energyDrift), secondsText(point.cost()), secondsText(point.wall),
         secondsText(point.wallMedian), fmt::format("{:.0f} %", 100 * point.wallSpread),

@@ -56,8 +56,8 @@ void judge(const StudyResults& results, CheapestRow& row) {
 
 std::string pointText(const StudyResults& results, const StudyPoint* point) {
   if (point == nullptr) return "not reached";
-  return fmt::format("{} per s ({}, h = {} s)", secondsText(point->cost()),
-                     results.methodTitle(*point), numberText(point->h));
+  return fmt::format("{} per s ({}, {})", secondsText(point->cost()), results.methodTitle(*point),
+                     stepText(*point));
 }
 
 }  // namespace
@@ -111,6 +111,25 @@ std::string secondsText(double seconds) {
 std::string numberText(double value) {
   if (!std::isfinite(value)) return "–";
   return fmt::format("{:.2g}", value);
+}
+
+std::string goalsText(const std::vector<const StudyResults*>& cases) {
+  constexpr std::size_t kGoals = 2;  // the first of kTargets
+  int won = 0;
+  for (const StudyResults* results : cases) {
+    const std::vector<CheapestRow> rows = cheapestRows(*results);
+    for (std::size_t i = 0; i < kGoals; ++i) {
+      won += rows[i].ours != nullptr && rows[i].oursWins ? 1 : 0;
+    }
+  }
+  return fmt::format("ours is the cheapest, or alone, at {} of {} goals: {} and {} of {} cases",
+                     won, kGoals * cases.size(), percentText(kTargets[0]), percentText(kTargets[1]),
+                     cases.size());
+}
+
+std::string stepText(const StudyPoint& point) {
+  if (point.key.accuracy > 0) return point.key.text();
+  return fmt::format("h = {} s", numberText(point.h));
 }
 
 std::string summaryText(const StudyResults& results) {

@@ -33,9 +33,13 @@ struct MethodRow {
 };
 std::vector<MethodRow> methodRows(const StudyResults& results);
 
-std::string percentText(double share);    // "0.1 %"
-std::string secondsText(double seconds);  // "1.3 ms"
-std::string numberText(double value);     // "3.1e-05"
+std::string percentText(double share);          // "0.1 %"
+std::string secondsText(double seconds);        // "1.3 ms"
+std::string numberText(double value);           // "3.1e-05"
+std::string stepText(const StudyPoint& point);  // "h = 0.01 s", "accuracy 1e-3"
+
+// "ours is the cheapest, or alone, at 60 of 78 goals: 1 % and 0.1 % of 39 cases"
+std::string goalsText(const std::vector<const StudyResults*>& cases);
 
 // What `dbd study accuracy` says about a case.
 std::string summaryText(const StudyResults& results);

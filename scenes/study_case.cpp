@@ -51,13 +51,39 @@ Scene readOwnScene(TableReader& root, StudyCase& study) {
 
 void readGrid(TableReader& reader, StudyGrid& grid) {
   constexpr int kMost = 1'000'000;
-  const auto list = [&](const char* key, std::vector<int>& values) {
-    reader(Field{key, Unit::kNone, false, 1, kMost}, values);
+  const auto list = [&](const char* key, auto& values, double least, double most) {
+    reader(Field{key, Unit::kNone, false, least, most}, values);
     if (reader.has(key) && values.empty()) reader.failAt(key, "expected at least one");
   };
-  list("steps", grid.steps);
-  list("substeps", grid.substeps);
-  list("iterations", grid.iterations);
+  list("steps", grid.steps, 1, kMost);
+  list("substeps", grid.substeps, 1, kMost);
+  list("iterations", grid.iterations, 1, kMost);
+  list("accuracies", grid.accuracies, 1e-12, 0.5);  // as simulation.accuracy
+}
+
+// What a method takes of the sweep that all share.
+StudyGrid gridOf(const StudyMethod& method, const StudyGrid& common) {
+  StudyGrid grid;
+  if (method.asks) {
+    grid.accuracies = common.accuracies;
+    return grid;
+  }
+  grid = common;
+  grid.accuracies = {0};
+  if (!method.iterates) grid.iterations = {0};
+  return grid;
+}
+
+void readOwnGrid(TableReader& own, const StudyMethod& method, StudyGrid& grid) {
+  if (!method.asks && own.has("accuracies")) {
+    own.failAt("accuracies", fmt::format("'{}' is not asked for an accuracy", method.name));
+  }
+  for (const char* key : {"steps", "substeps", "iterations"}) {
+    if (!method.asks || !own.has(key)) continue;
+    own.failAt(key, fmt::format("'{}' is swept over accuracies alone", method.name));
+  }
+  readGrid(own, grid);
+  own(Field{"set"}, grid.set);
 }
 
 const StudyMethod& findMethod(const TableReader& sweep, const std::vector<StudyMethod>& known,
@@ -72,6 +98,7 @@ const StudyMethod& findMethod(const TableReader& sweep, const std::vector<StudyM
 
 void readSweep(TableReader& sweep, StudyCase& study) {
   StudyGrid common;
+  common.accuracies = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
   readGrid(sweep, common);
   std::vector<std::string> wanted;
   sweep(Field{"methods", Unit::kNone, true}, wanted);
@@ -79,12 +106,8 @@ void readSweep(TableReader& sweep, StudyCase& study) {
   const std::vector<StudyMethod> known = studyMethods();
   for (const std::string& name : wanted) {
     const StudyMethod& method = findMethod(sweep, known, name);
-    StudyGrid grid = common;
-    if (!method.iterates) grid.iterations = {0};
-    readTable(sweep, name.c_str(), [&](TableReader& own) {
-      readGrid(own, grid);
-      own(Field{"set"}, grid.set);
-    });
+    StudyGrid grid = gridOf(method, common);
+    readTable(sweep, name.c_str(), [&](TableReader& own) { readOwnGrid(own, method, grid); });
     study.methods.push_back(method);
     study.grids.push_back(grid);
   }

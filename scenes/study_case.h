@@ -22,13 +22,14 @@
 //                          # every component; value = 3.1 is law = [3.1]
 //   times = 1, plus = 0    # the reference is times * column + plus
 //   weight = 1             # of its error in the norm
-//   over = "each"          # each sample; or one number: last, max, min, mean, rms (unweighted
-//   time) from = 0, to = 10      # s, the samples that count [reference]            # for
-//   quantities without `law`; absent: they are errors themselves table = "S01_pendulum_A01.csv" #
-//   of tests/reference, or a path from this file with a '/' time = "t"             # its column of
-//   times where = { zeta = 0.5 } # the rows that count accuracy = 1e-12       # of the table, where
-//   known; or accuracy_column = "tip_err_est" self = { set = ["simulation.stepping=symmetric"],
-//   steps = 1, substeps = 2000, iterations = 1 }
+//   over = "each"          # each sample; or one number: last, max, min, mean, rms (unweighted)
+//   from = 0, to = 10      # s, the samples that count
+//   [reference]            # for quantities without `law`; absent: they are errors themselves
+//   table = "S01_pendulum_A01.csv"    # of tests/reference, or a path from this file with a '/'
+//   time = "t"             # its column of times
+//   where = { zeta = 0.5 } # the rows that count
+//   accuracy = 1e-12       # of the table, where known; or accuracy_column = "tip_err_est"
+//   self = { set = ["simulation.stepping=symmetric"], steps = 1, substeps = 2000, iterations = 1 }
 //                          # instead of a table: a run at least 10 times finer than the finest
 //                          # point; one with half as many substeps estimates its error
 //   [sweep]                # h = 1 / (fps * steps * substeps)
@@ -36,6 +37,7 @@
 //   steps = [1]            # World steps per sample; contacts are found once in each
 //   substeps = [1, 2, 4, 8]
 //   iterations = [1, 4]    # for methods that iterate; the others keep the scene's
+//   accuracies = [1e-2, 1e-4]     # for methods that are asked for one, in place of all these
 //   [sweep.paper]          # other values for one method, and overrides: set = [...]
 //   substeps = [1, 16, 256]
 //   [[published]]          # numbers of others, drawn as such
@@ -69,6 +71,7 @@ std::span<const char* const> names(StudyQuantity::Over);
 struct StudyGrid {  // what is swept for one method
   std::vector<int> steps{1}, substeps{1};
   std::vector<int> iterations{0};  // 0: the scene's own
+  std::vector<double> accuracies{0};  // asked for; 0: none is
   std::vector<std::string> set;
 };
 

@@ -28,6 +28,8 @@ StudyMethod readMethod(TableReader& reader, const std::vector<StudyMethod>& earl
   reader(Field{"color", Unit::kNone, true}, method.color);
   reader(Field{"marker"}, method.marker);
   reader(Field{"iterates"}, method.iterates);
+  reader.atMostOne("asks", "peer");
+  reader(Field{"asks"}, method.asks);
   const bool isHash = method.color.size() == 7 && method.color[0] == '#';
   if (!isHash || !namedColor(method.color)) reader.failAt("color", "expected '#rrggbb'");
   for (const StudyMethod& other : earlier) {

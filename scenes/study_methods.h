@@ -33,6 +33,7 @@ struct StudyMethod {
   std::string color;             // "#rrggbb"
   Marker marker = Marker::kCircle;
   bool iterates = true;  // whether the number of iterations matters
+  bool asks = false;     // swept over the accuracy that it is asked for, and over nothing else
 };
 std::span<const char* const> names(StudyMethod::Marker);
 

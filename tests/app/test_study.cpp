@@ -41,7 +41,8 @@ class Study : public Program {
   Outcome study(const std::string& arguments, const std::string& prefix = "") const {
     return run("study accuracy stone.toml -o s --progress none " + arguments, prefix);
   }
-  std::string points() const { return readBytes(folder / "s" / "points.csv"); }
+  std::string bytes(const std::string& file) const { return readBytes(folder / "s" / file); }
+  std::string points() const { return bytes("points.csv"); }
 
   // What does not depend on the clock: the columns before "wall", of every row.
   std::vector<std::string> measured() const {
@@ -67,6 +68,31 @@ TEST_F(Study, FallingShowsTheFirstOrderOfThePapersSteps) {
   for (const char* file : {"index.html", "stone.svg", "stone.png", "stone_h.svg", "stone_h.png"}) {
     EXPECT_GT(readBytes(folder / "s" / file).size(), 1000u) << file;
   }
+}
+
+TEST_F(Study, AMethodThatIsAskedHasItsAccuraciesInTheTableAndTheDiagrams) {
+  std::string text = std::string(kCase) + "accuracies = [1e-2, 1e-5]\n";
+  text.replace(text.find("[\"paper\"]"), 9, "[\"paper\", \"accuracy\"]");
+  writeText(folder / "stone.toml", text);
+  const Outcome outcome = study("");
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("2 of 2 points (100 %) are within 3 times"), std::string::npos)
+      << outcome.output;
+  const std::vector<std::string> rows = lines(points()), asked = lines(bytes("asked.csv"));
+  ASSERT_EQ(rows.size(), 7u);
+  EXPECT_EQ(cells(rows[0]).at(28), "accuracy");
+  EXPECT_EQ(std::stod(cells(rows[4]).at(28)), 0);
+  EXPECT_EQ(std::stod(cells(rows[5]).at(28)), 1e-2);
+  EXPECT_EQ(std::stod(cells(rows[6]).at(28)), 1e-5);
+  ASSERT_EQ(asked.size(), 3u);
+  EXPECT_EQ(asked[1].substr(0, 11), "stone,0.01,");
+  EXPECT_NE(bytes("stone.gp").find("by accuracy"), std::string::npos);
+  EXPECT_EQ(bytes("stone_h.gp").find("by accuracy"), std::string::npos);  // it has no h
+  EXPECT_GT(bytes("asked.png").size(), 1000u);
+  EXPECT_NE(bytes("index.html").find("accuracy 1e-2"), std::string::npos);
+  ASSERT_EQ(run("study accuracy stone.toml --methods accuracy -o alone --quiet").code, 0);
+  EXPECT_TRUE(fs::exists(folder / "alone" / "stone.png"));
+  EXPECT_FALSE(fs::exists(folder / "alone" / "stone_h.png"));
 }
 
 TEST_F(Study, AnInterruptedStudyGoesOnToTheSameTable) {

@@ -1,10 +1,12 @@
-// Orders and fronts of points made by hand.
+// Orders, fronts and verdicts of points made by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "app/study_asked.h"
 #include "app/study_fit.h"
 #include "app/study_point.h"
+#include "app/study_table.h"
 
 namespace app {
 namespace {
@@ -70,9 +72,85 @@ TEST(Front, KeepsWhatNoOtherPointBeats) {
   EXPECT_EQ(cheapest(points, 0.05), nullptr);
 }
 
+scenes::StudyMethod methodOf(const std::string& name, const std::string& peer, bool asks) {
+  scenes::StudyMethod method;
+  method.name = name;
+  method.peer = peer;
+  method.asks = asks;
+  return method;
+}
+
+StudyPoint askedPointOf(double asked, double error) {
+  StudyPoint point = pointOf(1e-3, error);
+  point.key = {"case", "asked", 1, 1, 0, asked};
+  return point;
+}
+
+// A case of scale 2 with a method of ours that is asked, and a peer.
+StudyResults resultsOf(double reference, const std::vector<StudyPoint>& points) {
+  StudyResults results;
+  results.study.name = "case";
+  results.study.scale = 2;
+  results.study.methods = {methodOf("asked", "", true), methodOf("peer", "bullet", false)};
+  results.study.grids.resize(2);
+  results.study.grids[0].accuracies = {1e-6, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
+  results.reference.accuracy = reference;
+  results.points = points;
+  return results;
+}
+
+TEST(Asked, ThreeTimesWhatWasAskedIsStillDelivered) {
+  const StudyResults results =
+      resultsOf(1e-5, {askedPointOf(1e-1, 1e-3), askedPointOf(1e-2, 0.06),
+                       askedPointOf(1e-3, 0.0061), askedPointOf(1e-6, 1e-4)});
+  const std::vector<AskedPoint> asked = askedPoints({&results});
+  ASSERT_EQ(asked.size(), 4u);
+  EXPECT_EQ(asked[0].verdict, AskedPoint::Verdict::kDelivered);
+  EXPECT_EQ(asked[1].verdict, AskedPoint::Verdict::kDelivered);
+  EXPECT_EQ(asked[2].verdict, AskedPoint::Verdict::kBeyond);
+  EXPECT_EQ(asked[3].verdict, AskedPoint::Verdict::kUnjudged);  // the reference is off by 5e-6
+  EXPECT_EQ(askedText(asked),
+            "2 of 3 points (67 %) are within 3 times the accuracy that they were asked for; of 1 "
+            "more the reference is no better than what was asked");
+}
+
+TEST(Asked, WhatFailedWasNotDelivered) {
+  StudyPoint point = askedPointOf(1e-1, 0);
+  point.status = StudyPoint::Status::kNotFinite;
+  const StudyResults results = resultsOf(0, {point});
+  EXPECT_EQ(askedPoints({&results})[0].verdict, AskedPoint::Verdict::kBeyond);
+}
+
+TEST(Asked, CountsAsOursAtTheGoals) {
+  StudyPoint peer = pointOf(1e-4, 0.01);  // cheaper, and good for 1 % of 2
+  peer.key = {"case", "peer"};
+  const StudyResults results = resultsOf(0, {askedPointOf(1e-3, 1e-4), peer});
+  EXPECT_EQ(goalsText({&results}),
+            "ours is the cheapest, or alone, at 1 of 2 goals: 1 % and 0.1 % of 1 cases");
+}
+
+TEST(Asked, APlanHasTheCoarsestFirstAndThreeWhereItIsQuick) {
+  const auto accuracies = [](bool quick) {
+    std::vector<double> result;
+    for (const PlannedPoint& planned : planPoints(resultsOf(0, {}).study, quick)) {
+      if (planned.method == 0) result.push_back(planned.key.accuracy);
+    }
+    return result;
+  };
+  EXPECT_EQ(accuracies(false), (std::vector<double>{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}));
+  EXPECT_EQ(accuracies(true), (std::vector<double>{1e-1, 1e-3, 1e-6}));
+}
+
+TEST(Asked, AnAccuracyReadsAsItIsWritten) {
+  EXPECT_EQ(accuracyText(1e-1), "1e-1");
+  EXPECT_EQ(accuracyText(1e-3), "1e-3");
+  EXPECT_EQ(accuracyText(2.5e-6), "2.5e-6");
+  EXPECT_EQ(askedPointOf(1e-6, 0).key.text(), "accuracy 1e-6");
+}
+
 TEST(PointFile, ARowComesBackAsItWas) {
   StudyPoint point = pointOf(1.25e-3, 3.5e-7, StudyPoint::Status::kExploded);
-  point.key = {"pendulum", "bdf2", 2, 16, 4};
+  point.key = {"pendulum", "bdf2", 2, 16, 4, 1e-3};
   point.message = "error 12 m, at the end\nof it";
   point.errors.last = INFINITY;
   const std::string row = pointRow(point);

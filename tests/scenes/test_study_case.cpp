@@ -33,6 +33,26 @@ TEST(StudyCase, ReadsWhatIsSweptForEachMethod) {
   EXPECT_EQ(study.sampleCount(), 11);
 }
 
+TEST(StudyCase, AMethodThatIsAskedIsSweptOverAccuraciesAlone) {
+  const std::string sweep =
+      "[sweep]\nmethods = [\"paper\", \"accuracy\"]\nsteps = [2]\nsubsteps = [1, 4]\n";
+  const StudyCase study = caseOf(kStudyHead + kBob + sweep);
+  EXPECT_EQ(study.grids[0].accuracies, (std::vector<double>{0}));
+  EXPECT_EQ(study.grids[1].accuracies, (std::vector<double>{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}));
+  EXPECT_EQ(study.grids[1].steps, (std::vector<int>{1}));
+  EXPECT_EQ(study.grids[1].substeps, (std::vector<int>{1}));
+  const StudyCase own = caseOf(kStudyHead + kBob + sweep + "accuracies = [1e-3]\n");
+  EXPECT_EQ(own.grids[1].accuracies, (std::vector<double>{1e-3}));
+}
+
+TEST(StudyCase, StepsAndAccuraciesAreNotMixed) {
+  const std::string head = kStudyHead + kBob + "[sweep]\nmethods = [\"paper\", \"accuracy\"]\n";
+  EXPECT_EQ(studyErrorOf(head + "[sweep.accuracy]\nsubsteps = [2]\n"),
+            "case.toml:11:12: accuracy.substeps: 'accuracy' is swept over accuracies alone");
+  EXPECT_EQ(studyErrorOf(head + "[sweep.paper]\naccuracies = [1e-2]\n"),
+            "case.toml:11:14: paper.accuracies: 'paper' is not asked for an accuracy");
+}
+
 TEST(StudyCase, NamesTheNearestKeyForAnUnknownOne) {
   EXPECT_EQ(studyErrorOf(kStudyHead + kBob + "colum = \"x\"\n" + kSweep),
             "case.toml:8:1: quantity: unknown key 'colum'; did you mean 'column'?");
