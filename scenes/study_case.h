@@ -70,7 +70,7 @@ std::span<const char* const> names(StudyQuantity::Over);
 
 struct StudyGrid {  // what is swept for one method
   std::vector<int> steps{1}, substeps{1};
-  std::vector<int> iterations{0};  // 0: the scene's own
+  std::vector<int> iterations{0};     // 0: the scene's own
   std::vector<double> accuracies{0};  // asked for; 0: none is
   std::vector<std::string> set;
 };
