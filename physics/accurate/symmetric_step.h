@@ -62,6 +62,8 @@ class SymmetricStep {
                const TrialPoses& trial);
 
  private:
+  static constexpr int kMostIterations = 16;
+
   // What tells of a joint's force, as its lambda in steps of one second.
   struct Pull {
     Vec3 next = Vec3::Zero(), change = Vec3::Zero();

@@ -111,64 +111,80 @@ void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int steps, S
   trial.tableau.add(steps, 1, trial.pose, trial.velocity);
 }
 
-// An island that touches, by the substeps of the default: their error has all powers of h while
-// nothing comes into touch or leaves it, and the steps are divided about where something does.
-// Where that is in many places at once no step resolves it: it goes on by the default, and the
-// estimate tells.
-void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int count,
-                                         StepReport& report) {
+// A step of `whole`, by a tableau whose last row has so many substeps.
+void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int columns, int most,
+                              StepReport& report) {
+  trial.error = trial.coarser = std::numeric_limits<double>::infinity();
+  trial.places = 0;
+  trial.tableau.clear(batch.bodies.size());
+  for (int j = 1; j <= columns; ++j) {
+    tryOut(w, batch, whole, (most * j + columns - 1) / columns, report);
+    trial.coarser = trial.error;
+    if (j == 1) continue;
+    trial.error =
+        trial.tableau.difference(trial.extent, whole, trial.turns, trial.allowed, &trial.places);
+  }
+}
+
+// What rests is left to rest: where the last row's end is as good, it is that.
+void SmallSteps::Impl::takeBest(Model& w, const Batch& batch, double whole) {
+  constexpr double kPlain = 0.1;
+  if (!(trial.tableau.gain(trial.extent, whole, trial.turns) > kPlain * trial.allowed)) return;
+  trial.tableau.best(trial.pose, trial.velocity);
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    w.bodies.pose[batch.bodies[k]] = trial.pose[k];
+    w.bodies.velocity[batch.bodies[k]] = trial.velocity[k];
+  }
+}
+
+void SmallSteps::Impl::begin(const Model& w, const Batch& batch) {
   // Contacts are in single precision: displacements are no better known than by this part.
   constexpr double kKnown = 1e-5;
-  constexpr double kLeastPart = 1.0 / 1024;
-  constexpr int kMostPlaces = 4;
-  constexpr double kPlain = 0.1;  // what rests is left to rest: its end is that of the substeps
   const std::size_t size = batch.bodies.size();
-  const double extent = sizeOf(w.bodies, batch);
-  const double allowed = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
-  StepChoice& choice = choices[batch.bodies.front()];
+  trial.extent = sizeOf(w.bodies, batch);
+  trial.allowed = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
   trial.turns.resize(size);
   trial.pose.resize(size);
   trial.velocity.resize(size);
   for (std::size_t k = 0; k < size; ++k) {
     trial.turns[k] = !w.bodies.inverseInertia[batch.bodies[k]].isZero(0);
   }
+}
+
+// An island that touches, by the substeps of the default: their error has all powers of h while
+// nothing comes into touch or leaves it, and the steps are divided about where something does.
+// Where that is in many places at once no step resolves it: it goes on by the default, and the
+// estimate tells.
+void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int count,
+                                         StepReport& report) {
+  constexpr double kLeastPart = 1.0 / 1024;
+  constexpr int kMostPlaces = 4;
+  StepChoice& choice = choices[batch.bodies.front()];
   AccuracyReport told;
+  begin(w, batch);
   for (double left = dt; left > 0;) {
     const double whole = std::min(std::max(choice.next(left, dt), kLeastPart * dt), left);
     const int columns = choice.columns();
     const int most = std::max(columns, static_cast<int>(std::ceil(count * whole / dt)));
-    double error = std::numeric_limits<double>::infinity(), coarser = error;
-    int places = 0;
     keepStart(w, batch);
-    trial.tableau.clear(size);
-    for (int j = 1; j <= columns; ++j) {
-      tryOut(w, batch, whole, (most * j + columns - 1) / columns, report);
-      coarser = error;
-      if (j > 1) error = trial.tableau.difference(extent, whole, trial.turns, allowed, &places);
-    }
-    const bool isSmall = error <= allowed;
-    if (!isSmall && whole > kLeastPart * dt && places <= kMostPlaces) {
+    tryOut(w, batch, whole, columns, most, report);
+    const bool isSmall = trial.error <= trial.allowed;
+    if (!isSmall && whole > kLeastPart * dt && trial.places <= kMostPlaces) {
       ++told.rejected;
       goBack(w.bodies, batch);
-      choice.reject(whole, error, allowed);
+      choice.reject(whole, trial.error, trial.allowed);
       continue;
     }
     if (isSmall) {
-      if (trial.tableau.gain(extent, whole, trial.turns) > kPlain * allowed) {
-        trial.tableau.best(trial.pose, trial.velocity);
-        for (std::size_t k = 0; k < size; ++k) {
-          w.bodies.pose[batch.bodies[k]] = trial.pose[k];
-          w.bodies.velocity[batch.bodies[k]] = trial.velocity[k];
-        }
-      }
-      choice.accept(whole, error, coarser, allowed, dt);
+      takeBest(w, batch, whole);
+      choice.accept(whole, trial.error, trial.coarser, trial.allowed, dt);
       told.order = std::max(told.order, columns);
     }
     takeOver(w, batch, whole / most);
     batch.joints.finish(w.kinds, whole / most);
     ++told.accepted;
     told.least = told.least > 0 ? std::min(told.least, whole) : whole;
-    told.estimate += error;
+    told.estimate += trial.error;
     left = whole == left ? 0 : left - whole;
   }
   add(told, report.accuracy);

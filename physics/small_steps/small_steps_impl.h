@@ -142,6 +142,8 @@ struct SmallSteps::Impl {
     std::vector<Pose> pose;
     std::vector<Velocity> velocity;
     std::vector<char> turns;
+    double extent = 0, allowed = 0, error = 0, coarser = 0;  // coarser: by a column less
+    int places = 0;                                          // bodies that err by too much
   } trial;
   bool known = false;                 // these are those of the world's constraints
   std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
@@ -180,7 +182,10 @@ struct SmallSteps::Impl {
   bool stepsAccurately(const Model& w, const Batch& batch) const;
   void advanceAccurately(Model& w, Batch& batch, double dt, int count, StepReport& report);
   double sizeOf(const Bodies& b, const Batch& batch) const;
+  void begin(const Model& w, const Batch& batch);
   void tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report);
+  void tryOut(Model& w, Batch& batch, double whole, int columns, int most, StepReport& report);
+  void takeBest(Model& w, const Batch& batch, double whole);
   void goBack(Bodies& b, const Batch& batch);
   void run(Model& w, Batch& batch, double h, int count, StepReport& report);
   void makeRoom(std::size_t bodies);

@@ -128,6 +128,7 @@ class JointPack {
   void noteSeen();
   void step();
   void noteOpened(const JointStage& stage);
+  bool isBeyondLimit(int lane) const;
   bool hasGap(int lane) const;
   double offOf(int lane) const;
   void noteStep(int lane, double off);

@@ -472,9 +472,22 @@ void JointPack<W>::noteOpened(const JointStage& stage) {
   if (std::none_of(isOpen.begin(), isOpen.end(), [](bool open) { return open; })) return;
   gatherPoses<W>(ids_, stage.pose, bodies_);
   jointKernels<W>().seeGaps(view(), false);
+  jointKernels<W>().seeLimits(view(), true);
   for (int l = 0; l < lanes_; ++l) {
-    of_[l]->isOpened_ = of_[l]->isOpened_ || (isOpen[l] && !hasGap(l));
+    of_[l]->isOpened_ = of_[l]->isOpened_ || (isOpen[l] && !hasGap(l) && !isBeyondLimit(l));
   }
+}
+
+// What starts beyond a limit is turned back within a substep: in a shorter one, so much faster.
+template <int W>
+bool JointPack<W>::isBeyondLimit(int l) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!isLimit(topology_->shapes[i])) continue;
+    const double c = rows_[i].c[0].v[l];
+    if (rows_[i].high.v[l] == 0 && c > kOpened) return true;
+    if (rows_[i].low.v[l] == 0 && c < -kOpened) return true;
+  }
+  return false;
 }
 
 // Newton's method, until what is off before a step is no more than `tolerance` of the arms.

@@ -20,6 +20,16 @@ struct JointRow {
   std::array<Vec3, kMostBodies> arm;              // world, where it pulls
 };
 
+// Before it is evaluated: rows of J that a kind does not have are left as they are.
+inline void clear(JointRow& row) {
+  row.c.setZero();
+  for (int b = 0; b < JointRow::kMostBodies; ++b) {
+    row.linear[b].setZero();
+    row.angular[b].setZero();
+    row.arm[b].setZero();
+  }
+}
+
 // What is the same at every pose.
 struct JointKind {
   int bodyCount = 0, rows = 0;
