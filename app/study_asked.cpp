@@ -114,7 +114,8 @@ std::string beginAsked(const Extent& extent) {
       "set border 3 lw 1 lc rgb '#404040'\nset tics nomirror out scale 0.7,0.35\n"
       "set grid ytics lc rgb '#ececec' lw 1 lt 1\n"
       "set lmargin at screen 0.085\nset rmargin at screen 0.70\n"
-      "set key at screen 0.725,screen 0.90 left top Left reverse spacing 1.25 samplen 2 font "
+      "set key at screen 0.725,screen 0.90 left top Left reverse spacing 1.25 samplen 2 maxcols 1 "
+      "maxrows 30 font "
       "',10.5'\n",
       extent.leastAsked / 3, 3 * extent.mostAsked, extent.lowest, extent.highest);
 }

@@ -14,8 +14,6 @@ namespace physics {
 
 class Extrapolation {
  public:
-  static constexpr int kMostColumns = 5;  // order 10
-
   explicit Extrapolation(SymmetricStep step);
 
   const SymmetricStep& step() const { return step_; }
@@ -34,7 +32,7 @@ class Extrapolation {
   Tableau tableau_;
   std::vector<char> turns_;  // by body
   IslandState state_;
-  StepChoice choice_{2, 2, kMostColumns};
+  StepChoice choice_{2, 2, Tableau::kMostRows};
   double tolerance_ = 0;  // that joints close to
 };
 

@@ -5,13 +5,10 @@
 #include <limits>
 
 #include "physics/base/rotation.h"
+#include "physics/constraints/constraint_symmetric.h"
 
 namespace physics {
 namespace {
-
-Pose middleOf(const Pose& from, const Pose& to) {
-  return {0.5 * (from.x + to.x), exponential(0.5 * logarithm(to.q * from.q.conjugate())) * from.q};
-}
 
 void takeRow(const JointRow& row, IslandRow& to) {
   for (int b = 0; b < JointRow::kMostBodies; ++b) {
@@ -110,13 +107,18 @@ Vec3 SymmetricStep::momentumOf(std::size_t i) const {
   return q * inertia_[i].cwiseProduct(q.conjugate() * present_.state.velocity[i].w);
 }
 
+// What gravity and loads accelerate it by [m/s^2].
+Vec3 SymmetricStep::pullOn(std::size_t i, const Surroundings& world) const {
+  return world.gravity + present_.inverse[i].mass * world.loads[bodies_[i]].force;
+}
+
 // To the end of the step, by lambda.
 void SymmetricStep::move(double h, const Surroundings& world) {
   const IslandState& from = present_.state;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!moves_[i]) continue;
     const Load& load = world.loads[bodies_[i]];
-    const Vec3 pull = world.gravity + present_.inverse[i].mass * load.force;
+    const Vec3 pull = pullOn(i, world);
     to_.pose[i].x = from.pose[i].x + h * (from.velocity[i].v + 0.5 * h * pull) + shift_[i];
     if (!turns(i)) continue;
     momentum_[i] = momentumOf(i) + 0.5 * h * load.torque + twist_[i] / h;
@@ -188,10 +190,8 @@ void SymmetricStep::finish(double h, const Surroundings& world) {
   IslandState& state = present_.state;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!moves_[i]) continue;
-    const Load& load = world.loads[bodies_[i]];
-    const Vec3 pull = world.gravity + present_.inverse[i].mass * load.force;
-    state.velocity[i].v = (to_.pose[i].x - state.pose[i].x) / h + 0.5 * h * pull;
-    if (turns(i)) momentum_[i] += 0.5 * h * load.torque;
+    state.velocity[i].v = (to_.pose[i].x - state.pose[i].x) / h + 0.5 * h * pullOn(i, world);
+    if (turns(i)) momentum_[i] += 0.5 * h * world.loads[bodies_[i]].torque;
   }
   for (std::size_t i = 0; i < refs_.size(); ++i) {
     if (!isForce_[i]) continue;

@@ -93,6 +93,7 @@ class SymmetricStep {
   void stop(double h);
   bool meetsLimit(const Surroundings& world, const TrialPoses& trial) const;
   Vec3 momentumOf(std::size_t body) const;
+  Vec3 pullOn(std::size_t body, const Surroundings& world) const;
 
   std::vector<BodyId> bodies_;
   std::vector<bool> moves_;

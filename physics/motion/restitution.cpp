@@ -13,7 +13,6 @@ constexpr int kElasticSweeps = 100;  // after these, what still approaches stays
 constexpr int kMostSweeps = 200;
 constexpr int kManifoldSweeps = 500;  // of a manifold's points, at the most
 constexpr double kSlowest = 1e-9;     // m/s: slower than this is rounding
-constexpr double kClose = 1e-6;       // m: what is nearer than this hands an impact on
 
 using PerPoint = std::array<double, Manifold::kMaxPoints>;
 
@@ -68,8 +67,8 @@ Vec3 acceleration(const Bodies& bodies, const FreeFlight& flight, BodyId body) {
 }
 
 // v_i and tau of one point; nothing where the flight does not close the gap in this substep. One
-// that only just touches at the end, without an impulse, hits then.
-// Told: the solve stopped it where it does not hit yet.
+// that only just touches at the end, without an impulse, hits then. True: the solve stopped it
+// where it does not hit yet.
 bool fly(const ContactPointState& p, double a, double dt, double& speed, double& left) {
   if (p.normalTotal <= 0) {  // it only just touches at the end, and hits then
     speed = std::min(p.approach, 0.0);

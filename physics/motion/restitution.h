@@ -16,6 +16,9 @@
 
 namespace physics {
 
+inline constexpr double kClose =
+    1e-6;  // m: what is nearer than this touches, and hands an impact on
+
 // What a body that is not touched does in a substep.
 struct FreeFlight {
   std::optional<Vec3> gravity;  // m/s^2

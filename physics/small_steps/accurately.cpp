@@ -92,12 +92,7 @@ double SmallSteps::Impl::sizeOf(const Bodies& b, const Batch& batch) const {
 }
 
 void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {
-  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
-    const BodyId i = batch.bodies[k];
-    b.pose[i] = batch.kept[k].pose;
-    b.velocity[i] = batch.kept[k].velocity;
-    meanSpins[i] = batch.kept[k].meanSpin;
-  }
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) goBack(b, batch, k);
 }
 
 // From where `batch.kept` stands, in so many substeps, to the next row of its tableau.

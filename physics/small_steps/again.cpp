@@ -15,6 +15,13 @@ void SmallSteps::Impl::keepStart(const Model& w, Batch& batch) {
   }
 }
 
+void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch, std::size_t k) {
+  const BodyId i = batch.bodies[k];
+  b.pose[i] = batch.kept[k].pose;
+  b.velocity[i] = batch.kept[k].velocity;
+  meanSpins[i] = batch.kept[k].meanSpin;
+}
+
 // Islands with joints that came apart, by their first bodies. What sweeps and ropes end with is
 // where they start from: islands with those in them go on as they are.
 bool SmallSteps::Impl::findOpened(const Batch& batch) {
@@ -49,9 +56,7 @@ void SmallSteps::Impl::moveTo(Model& w, Batch& batch, Batch& again) {
     const BodyId i = batch.bodies[k];
     if (!isOpened(i)) continue;
     again.bodies.push_back(i);
-    w.bodies.pose[i] = batch.kept[k].pose;
-    w.bodies.velocity[i] = batch.kept[k].velocity;
-    meanSpins[i] = batch.kept[k].meanSpin;
+    goBack(w.bodies, batch, k);
     substeps[i] = again.substeps;
   }
   for (ContactBlock& block : batch.blocks) {

@@ -7,10 +7,6 @@
 
 namespace physics {
 
-namespace {
-constexpr double kClose = 1e-6;  // m: what is nearer than this touches
-}
-
 // At the start of a substep, with the velocities that nothing has stopped yet: gaps and approach.
 void SmallSteps::Impl::noteApproach(Model& w, Batch& batch, double h) {
   const double restitution = w.settings.contact ? w.settings.contact->restitution : 0;

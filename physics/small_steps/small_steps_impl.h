@@ -187,6 +187,7 @@ struct SmallSteps::Impl {
   void tryOut(Model& w, Batch& batch, double whole, int columns, int most, StepReport& report);
   void takeBest(Model& w, const Batch& batch, double whole);
   void goBack(Bodies& b, const Batch& batch);
+  void goBack(Bodies& b, const Batch& batch, std::size_t k);
   void run(Model& w, Batch& batch, double h, int count, StepReport& report);
   void makeRoom(std::size_t bodies);
   void look(Model& w);

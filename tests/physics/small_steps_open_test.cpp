@@ -2,8 +2,6 @@
 // that too few substeps take apart.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "physics/world.h"
 #include "tests/physics/stage.h"
 
@@ -63,12 +61,6 @@ double largestErrorPulled(World& world, BodyId corner, int steps) {
     most = std::max(most, world.constraintErrors().at(0).largest);
   }
   return most;
-}
-
-void expectSameBytes(const World& p, BodyId i, const World& q, BodyId j) {
-  const Pose &a = p.bodies().pose[i], &b = q.bodies().pose[j];
-  EXPECT_EQ(std::memcmp(a.x.data(), b.x.data(), 3 * sizeof(double)), 0);
-  EXPECT_EQ(std::memcmp(a.q.coeffs().data(), b.q.coeffs().data(), 4 * sizeof(double)), 0);
 }
 
 TEST(SmallStepsOpen, AColumnInsideItselfComesApart) {

@@ -29,12 +29,6 @@ double energyOf(const World& world) {
   return energy;
 }
 
-void expectSameBytes(const World& p, BodyId i, const World& q, BodyId j) {
-  const Pose &a = p.bodies().pose[i], &b = q.bodies().pose[j];
-  EXPECT_EQ(std::memcmp(a.x.data(), b.x.data(), 3 * sizeof(double)), 0);
-  EXPECT_EQ(std::memcmp(a.q.coeffs().data(), b.q.coeffs().data(), 4 * sizeof(double)), 0);
-}
-
 TEST(SmallSteps, HoldAWeightOfAThousandOnOne) {
   World world(byDefault());
   addGround(world);

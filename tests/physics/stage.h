@@ -1,6 +1,10 @@
 // Worlds of boxes and chains for the tests of what a step leaves out.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cstring>
+
 #include "physics/make/chain.h"
 #include "physics/world.h"
 #include "tests/physics/sweeps.h"
@@ -50,6 +54,12 @@ inline StepReport run(World& world, int steps) {
   StepReport report;
   for (int k = 0; k < steps; ++k) report = world.step();
   return report;
+}
+
+inline void expectSameBytes(const World& p, BodyId i, const World& q, BodyId j) {
+  const Pose &a = p.bodies().pose[i], &b = q.bodies().pose[j];
+  EXPECT_EQ(std::memcmp(a.x.data(), b.x.data(), 3 * sizeof(double)), 0);
+  EXPECT_EQ(std::memcmp(a.q.coeffs().data(), b.q.coeffs().data(), 4 * sizeof(double)), 0);
 }
 
 inline double furthest(const World& p, const World& q) {
