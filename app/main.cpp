@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "app/command_line.h"
-#include "app/console.h"
-#include "app/interrupt.h"
+#include "app/base/console.h"
+#include "app/base/interrupt.h"
+#include "app/commands/command_line.h"
 
 int main(int argc, char** argv) {
   app::guardStandardStreams();

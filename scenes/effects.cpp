@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "physics/constraints/constraint_item.h"
-#include "scenes/effect_words.h"
-#include "scenes/settings_reader.h"
-#include "scenes/survey.h"
+#include "scenes/measure/survey.h"
+#include "scenes/read/effect_words.h"
+#include "scenes/read/settings_reader.h"
 
 namespace scenes {
 namespace {

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "scenes/figure_sheet.h"
-#include "scenes/glossary.h"
-#include "scenes/recipe.h"
-#include "scenes/value.h"
+#include "scenes/figure/figure_sheet.h"
+#include "scenes/read/glossary.h"
+#include "scenes/read/recipe.h"
+#include "scenes/read/value.h"
 
 namespace scenes {
 namespace {

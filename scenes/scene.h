@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "physics/world.h"
-#include "scenes/input_error.h"
+#include "scenes/read/input_error.h"
 
 namespace scenes {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "physics/base/rotation.h"
-#include "scenes/recipe.h"
+#include "scenes/read/recipe.h"
 
 namespace scenes {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "physics/constraints/ball_socket.h"
-#include "scenes/label_placer.h"
-#include "scenes/recipe.h"
+#include "scenes/read/recipe.h"
+#include "scenes/view/label_placer.h"
 
 namespace scenes {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/picture.h"
-#include "scenes/view.h"
+#include "scenes/view/view.h"
 
 namespace scenes {
 

@@ -3,11 +3,11 @@
 
 #include <thread>
 
-#include "app/bounded_queue.h"
-#include "app/frame_range.h"
-#include "app/html.h"
-#include "app/nearest.h"
-#include "scenes/input_error.h"
+#include "app/base/bounded_queue.h"
+#include "app/base/html.h"
+#include "app/base/nearest.h"
+#include "app/run/frame_range.h"
+#include "scenes/read/input_error.h"
 
 namespace tests {
 namespace {

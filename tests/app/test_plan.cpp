@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/plan.h"
+#include "app/plan/plan.h"
 #include "physics/base/profile.h"
 #include "program.h"
 

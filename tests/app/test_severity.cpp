@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "app/severity_search.h"
-#include "app/stability_map.h"
-#include "app/stability_page.h"
+#include "app/study/severity_search.h"
+#include "app/study/stability_map.h"
+#include "app/study/stability_page.h"
 
 namespace app {
 namespace {

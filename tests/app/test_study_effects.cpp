@@ -2,7 +2,7 @@
 #include <csignal>
 #include <regex>
 
-#include "app/study_effects.h"
+#include "app/study/study_effects.h"
 #include "program.h"
 
 namespace tests {

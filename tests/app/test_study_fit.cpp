@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "app/study_asked.h"
-#include "app/study_fit.h"
-#include "app/study_point.h"
-#include "app/study_table.h"
+#include "app/study/study_asked.h"
+#include "app/study/study_fit.h"
+#include "app/study/study_point.h"
+#include "app/study/study_table.h"
 
 namespace app {
 namespace {

@@ -9,8 +9,8 @@
 #include <set>
 #include <thread>
 
-#include "app/exit_code.h"
-#include "app/pipeline.h"
+#include "app/commands/exit_code.h"
+#include "app/run/pipeline.h"
 #include "scenes/simulation.h"
 #include "tests/render/sample.h"
 

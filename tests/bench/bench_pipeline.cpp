@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <thread>
 
-#include "app/frame_folder.h"
-#include "app/pipeline.h"
+#include "app/run/frame_folder.h"
+#include "app/run/pipeline.h"
 #include "render/png.h"
-#include "scenes/view.h"
+#include "scenes/view/view.h"
 
 namespace {
 

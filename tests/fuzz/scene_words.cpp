@@ -5,9 +5,9 @@
 #include <iterator>
 #include <set>
 
-#include "scenes/metrics.h"
-#include "scenes/recipe.h"
-#include "scenes/value.h"
+#include "scenes/measure/metrics.h"
+#include "scenes/read/recipe.h"
+#include "scenes/read/value.h"
 
 namespace {
 

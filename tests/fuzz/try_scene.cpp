@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "scenes/metrics.h"
-#include "scenes/view.h"
+#include "scenes/measure/metrics.h"
+#include "scenes/view/view.h"
 
 namespace tests {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "app/exit_code.h"
+#include "app/commands/exit_code.h"
 
 namespace tests {
 

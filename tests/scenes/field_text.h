@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "physics/make/soft.h"
-#include "scenes/table_reader.h"
+#include "scenes/read/table_reader.h"
 
 namespace scenes {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/view.h"
+#include "scenes/view/view.h"
 #include "tests/scenes/scene_text.h"
 
 namespace scenes {

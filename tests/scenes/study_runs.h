@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "scenes/study_case.h"
-#include "scenes/study_files.h"
-#include "scenes/study_trace.h"
+#include "scenes/study/study_case.h"
+#include "scenes/study/study_files.h"
+#include "scenes/study/study_trace.h"
 
 namespace scenes {
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "scenes/figure_data.h"
-#include "scenes/figure_layout.h"
-#include "scenes/label_placer.h"
-#include "scenes/view.h"
+#include "scenes/figure/figure_data.h"
+#include "scenes/figure/figure_layout.h"
+#include "scenes/view/label_placer.h"
+#include "scenes/view/view.h"
 
 namespace scenes {
 namespace {

@@ -1,7 +1,7 @@
 // Figure sheets: what they say is read, and what is wrong in them is told at its place.
 #include <gtest/gtest.h>
 
-#include "scenes/figure_sheet.h"
+#include "scenes/figure/figure_sheet.h"
 
 namespace scenes {
 namespace {

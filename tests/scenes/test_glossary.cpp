@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "scenes/glossary.h"
-#include "scenes/recipe.h"
+#include "scenes/read/glossary.h"
+#include "scenes/read/recipe.h"
 #include "scenes/simulation.h"
 
 namespace scenes {

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "scenes/metrics.h"
+#include "scenes/measure/metrics.h"
 #include "tests/scenes/scene_text.h"
 
 namespace scenes {

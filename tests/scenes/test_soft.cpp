@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "scenes/recipe.h"
-#include "scenes/view.h"
+#include "scenes/read/recipe.h"
+#include "scenes/view/view.h"
 #include "tests/scenes/picture_of.h"
 #include "tests/scenes/scene_text.h"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "scenes/simulation.h"
-#include "scenes/stability_case.h"
+#include "scenes/study/stability_case.h"
 
 namespace scenes {
 namespace {

@@ -1,7 +1,7 @@
 // Cases of studies: what they say is read, and what is wrong in them is told at its place.
 #include <gtest/gtest.h>
 
-#include "scenes/study_case.h"
+#include "scenes/study/study_case.h"
 
 namespace scenes {
 namespace {

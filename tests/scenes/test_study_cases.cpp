@@ -4,9 +4,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "scenes/study_case.h"
-#include "scenes/study_files.h"
-#include "scenes/study_trace.h"
+#include "scenes/study/study_case.h"
+#include "scenes/study/study_files.h"
+#include "scenes/study/study_trace.h"
 
 namespace scenes {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "scenes/reference_table.h"
-#include "scenes/study_trace.h"
+#include "scenes/read/reference_table.h"
+#include "scenes/study/study_trace.h"
 
 namespace scenes {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "scenes/camera.h"
-#include "scenes/palette.h"
-#include "scenes/view.h"
+#include "scenes/view/camera.h"
+#include "scenes/view/palette.h"
+#include "scenes/view/view.h"
 #include "tests/scenes/picture_of.h"
 #include "tests/scenes/scene_text.h"
 

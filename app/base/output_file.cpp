@@ -1,0 +1,85 @@
+// Files that are whole or absent: written under a temporary name and renamed.
+#include "app/base/output_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "app/base/console.h"
+#include "app/commands/exit_code.h"
+
+namespace app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool isInPlace(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(fs::path path) : path_(std::move(path)), standardOutput_(path_ == "-") {
+  if (standardOutput_) return;
+  std::error_code ignored;
+  if (fs::is_directory(path_, ignored)) fail(EISDIR);
+  if (path_.has_parent_path()) makeFolder(path_.parent_path());
+  renamed_ = !isInPlace(path_);
+  written_ = renamed_ ? fs::path(path_.string() + kPartial) : path_;
+  if (renamed_) half_.emplace(written_.string());
+  file_ = std::fopen(written_.c_str(), "wb");
+  if (file_ == nullptr) fail(errno);
+}
+
+OutputFile::~OutputFile() {
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  if (renamed_) std::remove(written_.c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (standardOutput_) return say(bytes);
+  errno = 0;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
+}
+
+void OutputFile::commit() {
+  if (standardOutput_) return flushOutput();
+  errno = 0;
+  const bool flushed = std::fflush(file_) == 0;
+  const int error = errno;
+  const bool closed = std::fclose(file_) == 0;
+  file_ = nullptr;
+  if (flushed && closed && (!renamed_ || std::rename(written_.c_str(), path_.c_str()) == 0)) return;
+  const int reason = flushed ? errno : error;
+  if (renamed_) std::remove(written_.c_str());
+  fail(reason);
+}
+
+void OutputFile::fail(int error) const {
+  throw EnvironmentError("cannot write " + path_.string() + ": " +
+                         std::strerror(error != 0 ? error : EIO));
+}
+
+void writeFile(const fs::path& path, std::string_view bytes) {
+  OutputFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw EnvironmentError("cannot make " + folder.string() + ": " + error.message());
+}
+
+void removeFile(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw EnvironmentError("cannot remove " + path.string() + ": " + error.message());
+}
+
+}  // namespace app

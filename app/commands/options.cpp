@@ -1,0 +1,82 @@
+// The options that commands share.
+#include "app/commands/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <thread>
+
+namespace app {
+
+namespace {
+
+constexpr int kMostThreads = 256;
+
+}  // namespace
+
+scenes::Scene CommonOptions::readScene() const { return scenes::readScene(scene, overrides); }
+
+std::filesystem::path CommonOptions::outputFolder(const std::string& name) const {
+  return folder.empty() ? std::filesystem::path("out") / name : std::filesystem::path(folder);
+}
+
+int CommonOptions::threadCount() const {
+  if (threads > 0) return threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+ProgressMode CommonOptions::progressMode() const {
+  const ProgressMode mode = parseProgressMode(progress);
+  return quiet ? ProgressMode::kNone : mode;
+}
+
+std::vector<std::string> wholeLibrary() {
+  std::vector<std::string> names = scenes::libraryScenes();
+  if (names.empty()) throw scenes::InputError(scenes::nothingIn(scenes::libraryFolder()));
+  return names;
+}
+
+void addScene(CLI::App& command, CommonOptions& options) {
+  command.add_option("SCENE", options.scene, "A scene of the library (dbd list) or a .toml file")
+      ->required();
+}
+
+void addCommon(CLI::App& command, CommonOptions& options) {
+  addOutput(command, options);
+  addOverrides(command, options);
+}
+
+void addOverrides(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option("--set", options.overrides,
+                  "Override a value of the scene, as --set simulation.iterations=32; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command
+      .add_option_function<std::string>(
+          "--accuracy",
+          [&options](const std::string& value) {
+            options.overrides.push_back("simulation.accuracy=" + value);
+          },
+          "How accurately to step, relative to the size of what moves, as 1e-3: "
+          "simulation.accuracy")
+      ->type_name("A");
+}
+
+void addOutput(CLI::App& command, CommonOptions& options, const std::string& folder) {
+  command.add_option("-o,--out", options.folder, "Folder for the output [" + folder + "]")
+      ->type_name("DIR");
+  command.add_option("--threads", options.threads, "Threads [the cores there are]")
+      ->check(CLI::Range(1, kMostThreads))
+      ->type_name("N");
+  command
+      .add_option("--progress", options.progress,
+                  "Progress on stderr [bar on a terminal, else lines]")
+      ->type_name("bar|lines|json|none");
+  command.add_flag("--quiet", options.quiet, "No progress and no summary");
+}
+
+void addHash(CLI::App& command, CommonOptions& options) {
+  command.add_flag("--hash", options.hash, "Print the hash of the last state as the last line");
+}
+
+}  // namespace app

@@ -1,0 +1,46 @@
+// The options that commands share.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/base/progress.h"
+#include "app/commands/exit_code.h"
+#include "scenes/scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace app {
+
+using Action = std::function<ExitCode()>;  // what the chosen command does
+
+struct CommonOptions {
+  std::string scene;
+  std::string folder;  // -o; empty: out/NAME
+  int threads = 0;     // 0: the cores there are
+  std::vector<std::string> overrides;
+  std::string progress;
+  bool quiet = false;
+  bool hash = false;
+
+  scenes::Scene readScene() const;
+  std::filesystem::path outputFolder(const std::string& name) const;
+  int threadCount() const;
+  ProgressMode progressMode() const;
+};
+
+// Every scene of the library; throws InputError where there is none.
+std::vector<std::string> wholeLibrary();
+
+void addScene(CLI::App& command, CommonOptions& options);
+// -o --threads --progress --quiet; `folder` says what -o is without being given.
+void addOutput(CLI::App& command, CommonOptions& options, const std::string& folder = "out/NAME");
+void addOverrides(CLI::App& command, CommonOptions& options);  // --set
+void addCommon(CLI::App& command, CommonOptions& options);     // these and --set
+void addHash(CLI::App& command, CommonOptions& options);
+
+}  // namespace app

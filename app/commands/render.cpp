@@ -1,0 +1,221 @@
+// dbd render: simulates a scene, draws its frames and makes a film of them.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "app/base/console.h"
+#include "app/base/interrupt.h"
+#include "app/base/stopwatch.h"
+#include "app/commands/commands.h"
+#include "app/run/frame_range.h"
+#include "app/run/render_run.h"
+#include "render/film.h"
+
+namespace app {
+
+namespace {
+
+constexpr int kLeastSide = 16, kMostSide = 8192;  // pixels
+
+struct RenderOptions {
+  CommonOptions common;
+  std::string frames = ":", size, quality = "standard";
+  std::vector<std::string> overlays;
+  bool video = false, hud = false, fresh = false, resume = false;
+};
+
+struct QualityChoice {
+  render::Quality quality;
+  int width, height;
+};
+
+QualityChoice chooseQuality(const std::string& name) {
+  switch (parseQuality(name)) {
+    case render::Quality::kDraft:
+      return {render::Quality::kDraft, 640, 360};
+    case render::Quality::kPaper:
+      return {render::Quality::kPaper, 1920, 1080};
+    case render::Quality::kStandard:
+      break;
+  }
+  return {render::Quality::kStandard, 1280, 720};
+}
+
+void parseSize(const std::string& text, render::RendererOptions& options) {
+  const std::size_t cross = text.find('x');
+  const auto parse = [&text](const char* begin, const char* end) {
+    int side = 0;
+    const auto [stop, error] = std::from_chars(begin, end, side);
+    if (error != std::errc() || stop != end || side < kLeastSide || side > kMostSide) {
+      throw scenes::InputError(fmt::format(
+          "--size {}: expected WxH, each from {} to {}, as 1280x720", text, kLeastSide, kMostSide));
+    }
+    return side;
+  };
+  const char* const begin = text.data();
+  const char* const end = begin + text.size();
+  const char* const middle = cross == std::string::npos ? end : begin + cross;
+  options.width = parse(begin, middle);
+  options.height = parse(middle == end ? end : middle + 1, end);
+}
+
+scenes::Overlays chooseOverlays(scenes::Overlays overlays, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (word == "contacts") {
+      overlays.contacts = true;
+    } else if (word == "impulses") {
+      overlays.impulses = true;
+    } else if (word == "joints") {
+      overlays.joints = true;
+    } else if (word == "masses") {
+      overlays.centresOfMass = true;
+    } else if (word == "arms") {
+      overlays.arms = true;
+    } else if (word == "vectors") {
+      overlays.vectors = true;
+    } else {
+      throw scenes::InputError(fmt::format(
+          "--overlays {}: expected contacts, impulses, joints, masses, arms or vectors", word));
+    }
+  }
+  return overlays;
+}
+
+RenderJob makeJob(const RenderOptions& options, const scenes::Scene& scene) {
+  const QualityChoice quality = chooseQuality(options.quality);
+  RenderJob job;
+  job.renderer.quality = quality.quality;
+  job.renderer.width = quality.width;
+  job.renderer.height = quality.height;
+  if (!options.size.empty()) parseSize(options.size, job.renderer);
+  job.view.hud = options.hud;
+  job.view.overlays = chooseOverlays(scene.overlays, options.overlays);
+  job.view.aspect = static_cast<double>(job.renderer.width) / job.renderer.height;
+  job.frames = parseFrameRange(options.frames, scene.frameCount());
+  job.folder = options.common.outputFolder(scene.name);
+  job.threads = options.common.threadCount();
+  job.fresh = options.fresh;
+  job.progress = options.common.progressMode();
+  return job;
+}
+
+// Every S-th frame plays at fps/S, so that the film keeps the pace of the scene.
+void makeVideo(const scenes::Scene& scene, const RenderJob& job, RenderResult& result) {
+  const std::filesystem::path file = job.folder / (scene.name + ".mp4");
+  const int step = job.frames.size() > 1 ? job.frames[1] - job.frames[0] : 1;
+  const Json made = {{"file", file.filename().string()},
+                     {"first", job.frames.front()},
+                     {"last", job.frames.back()},
+                     {"step", step}};
+  if (result.drawn == 0 && result.record.video == made && std::filesystem::exists(file)) return;
+  if (job.progress != ProgressMode::kNone && job.progress != ProgressMode::kJson) {
+    note(scene.name + ": making the film\n");
+  }
+  const Stopwatch watch;
+  render::FilmOptions film;
+  film.framesPerSecond = std::max(1, static_cast<int>(std::lround(1.0 * scene.fps / step)));
+  try {
+    render::makeFilm(
+        render::frameFiles(job.folder / "frames", job.frames.front(), job.frames.back(), step),
+        file, film);
+  } catch (const render::FilmError& error) {
+    if (interrupted()) {
+      result.end.code = ExitCode::kInterrupted;
+      return;
+    }
+    throw EnvironmentError(error.what());
+  }
+  result.record.video = made;
+  result.record.seconds["film"] = watch.seconds();
+  writeRecord(result.record, job.folder);
+}
+
+void requireFfmpeg() {
+  if (!render::ffmpegVersion().empty()) return;
+  throw EnvironmentError(
+      "--video: cannot run ffmpeg; install it with: sudo apt-get install -y ffmpeg");
+}
+
+std::string summary(const scenes::Scene& scene, const RenderJob& job, const RenderResult& result) {
+  const Json& seconds = result.record.seconds;
+  std::string text = fmt::format("{}: {} frames drawn", scene.name, result.drawn);
+  if (result.kept > 0) text += fmt::format(", {} kept from before", result.kept);
+  if (const double camera = seconds.value("camera", 0.0); camera >= 0.005) {
+    text += fmt::format("; find the camera {:.2f} s", camera);
+  }
+  text += fmt::format(
+      "; simulate {:.2f} s, draw {:.2f} s, write {:.2f} s on {} threads, {:.2f} s in all\n",
+      seconds.value("simulate", 0.0), seconds.value("draw", 0.0), seconds.value("write", 0.0),
+      job.threads, seconds.value("wall", 0.0));
+  for (const Json& verdict : result.record.expectations) {
+    text += fmt::format("{:<5} {}\n", verdict.at("holds").get<bool>() ? "ok" : "FAIL",
+                        verdict.at("text").get<std::string>());
+  }
+  text += (job.folder / "frames").string() + "/\n";
+  if (result.record.video.is_object()) {
+    text += (job.folder / result.record.video.at("file").get<std::string>()).string() + "\n";
+  }
+  return text;
+}
+
+ExitCode renderScene(const RenderOptions& options) {
+  const scenes::Scene scene = options.common.readScene();
+  const RenderJob job = makeJob(options, scene);
+  if (options.video) requireFfmpeg();
+  RenderResult result = renderFrames(scene, job);
+  if (result.end.code == ExitCode::kDone && options.video) makeVideo(scene, job, result);
+  if (result.end.code == ExitCode::kInterrupted) {
+    note("dbd: interrupted; the same command goes on where it stopped\n");
+    return result.end.code;
+  }
+  if (!options.common.quiet) say(summary(scene, job, result));
+  if (options.common.hash) {
+    const std::vector<std::string>& hashes = result.record.stateHashes;
+    const bool done = result.end.code == ExitCode::kDone;  // else: of the last frame there is
+    say((done ? hashes.at(job.frames.back()) : hashes.back()) + "\n");
+  }
+  if (!result.end.problem.empty()) note("dbd: " + result.end.problem + "\n");
+  return result.end.code;
+}
+
+void addPictureOptions(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option("--frames", options.frames,
+                  "Frames A to B-1 in steps of S, as Python slices; one number is one frame [all]")
+      ->type_name("A:B:S");
+  command.add_option("--size", options.size, "Pixels [640x360, 1280x720, 1920x1080 by quality]")
+      ->type_name("WxH");
+  command.add_option("--quality", options.quality, "Effort of drawing [standard]")
+      ->type_name("draft|standard|paper");
+  command.add_flag("--hud", options.hud, "Show time, counts and running plots in the picture");
+  command
+      .add_option("--overlays", options.overlays,
+                  "Draw contacts, impulses, joints, masses, arms, vectors (a list with commas)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("LIST");
+}
+
+}  // namespace
+
+void addRender(CLI::App& line, Action& action) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = line.add_subcommand("render", "Simulate a scene and draw its frames as PNG");
+  addScene(*command, options->common);
+  command->add_flag("--video", options->video, "Also make DIR/NAME.mp4");
+  addPictureOptions(*command, *options);
+  CLI::Option* resume = command->add_flag(
+      "--resume", options->resume,
+      "Keep the frames of an earlier, same run; refuse those of another (the default)");
+  command
+      ->add_flag("--fresh", options->fresh, "Delete the frames that are there and draw all again")
+      ->excludes(resume);
+  addCommon(*command, options->common);
+  addHash(*command, options->common);
+  command->callback([options, &action] { action = [options] { return renderScene(*options); }; });
+}
+
+}  // namespace app

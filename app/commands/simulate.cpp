@@ -1,0 +1,141 @@
+// dbd simulate: steps a scene without drawing, and writes what it measured.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "app/base/console.h"
+#include "app/base/csv.h"
+#include "app/base/output_file.h"
+#include "app/commands/commands.h"
+#include "app/run/play.h"
+#include "app/run/run_record.h"
+
+namespace app {
+
+namespace {
+
+struct SimulateOptions {
+  CommonOptions common;
+  std::string trajectory, metrics;
+};
+
+// What a run leaves behind, in the order the frames come.
+struct Recording {
+  std::vector<scenes::FrameMetrics> metrics;
+  std::vector<StageSeconds> seconds;
+  std::vector<std::string> hashes;
+  double simulateSeconds = 0;
+};
+
+PlayEnd playAndRecord(scenes::Simulation& simulation, scenes::Checker& checker, Progress& progress,
+                      OutputFile* trajectory, Recording& recording) {
+  return play(simulation, simulation.scene().frameCount(), [&](double stepSeconds) {
+    const Stopwatch watch;
+    if (trajectory != nullptr) trajectory->write(trajectoryRows(simulation));
+    const double write = watch.seconds();
+    recording.metrics.push_back(simulation.metrics());
+    recording.hashes.push_back(hexadecimal(simulation.stateHash()));
+    recording.seconds.push_back({stepSeconds, 0, 0, write});
+    recording.simulateSeconds += stepSeconds;
+    checker.observe(simulation);
+    progress.advance();
+  });
+}
+
+// Frames that an earlier render left in the folder stay good when the states are the same.
+void writeRunRecord(RunRecord record, const Recording& recording, const PlayEnd& end,
+                    const scenes::Checker& checker, const std::filesystem::path& folder) {
+  const std::optional<RunRecord> earlier = readRecord(folder);
+  if (earlier && earlier->sameStates(record) && !earlier->picture.is_null()) record = *earlier;
+  record.stateHashes = recording.hashes;
+  if (record.picture.is_null()) {
+    record.seconds = {{"simulate", recording.simulateSeconds}};
+    record.finished = end.code == ExitCode::kDone;
+  }
+  if (end.code == ExitCode::kDone) record.expectations = describeVerdicts(checker.verdicts());
+  writeRecord(record, folder);
+}
+
+std::string summary(const scenes::Scene& scene, const Recording& recording) {
+  const scenes::FrameMetrics& last = recording.metrics.back();
+  const auto frames = recording.metrics.size();
+  std::string text = fmt::format("{}: {} frames, {:g} s simulated in {:.2f} s", scene.name, frames,
+                                 last.time, recording.simulateSeconds);
+  if (frames > 1) {
+    text += fmt::format(" ({:.3f} ms per frame)",
+                        1e3 * recording.simulateSeconds / static_cast<double>(frames - 1));
+  }
+  text += fmt::format("\nenergy {:.6g} J ({:.6g} J at the start), overlap {:.3g} m, contacts {}\n",
+                      last.total, recording.metrics.front().total, last.overlap, last.contacts);
+  for (const physics::KindError& error : last.errors) {
+    text += fmt::format("{}: largest error {:.3g} {}\n", error.kind, error.largest, error.unit);
+  }
+  return text;
+}
+
+void tell(const SimulateOptions& options, const scenes::Scene& scene, const Recording& recording) {
+  const bool tableOnStdout = options.trajectory == "-" || options.metrics == "-";
+  if (!options.common.quiet) {
+    (tableOnStdout ? note : say)(summary(scene, recording));
+  }
+  if (options.common.hash) say(recording.hashes.back() + "\n");
+}
+
+ExitCode simulate(const SimulateOptions& options) {
+  if (options.trajectory == "-" && options.metrics == "-") {
+    throw scenes::InputError("--trajectory - and --metrics -: only one table fits standard output");
+  }
+  const ProgressMode progressMode = options.common.progressMode();
+  const scenes::Scene scene = options.common.readScene();
+  const RunRecord record = makeRecord(scene);
+  noteWarnings(record);
+  scenes::Simulation simulation(scene);
+  simulation.setThreads(options.common.threadCount());
+  const std::filesystem::path folder = options.common.outputFolder(scene.name);
+  makeFolder(folder);
+  std::optional<OutputFile> trajectory, metrics;  // opened first: a long run must not end in vain
+  if (!options.trajectory.empty()) trajectory.emplace(options.trajectory);
+  if (!options.metrics.empty()) metrics.emplace(options.metrics);
+
+  scenes::Checker checker(scene);
+  Progress progress(progressMode, scene.name, "simulating", scene.frameCount());
+  Recording recording;
+  if (trajectory) trajectory->write(trajectoryHeader());
+  const PlayEnd end =
+      playAndRecord(simulation, checker, progress, trajectory ? &*trajectory : nullptr, recording);
+  if (end.code == ExitCode::kInterrupted) {
+    note(fmt::format("dbd: interrupted at frame {}; nothing was written\n", simulation.frame()));
+    return end.code;
+  }
+  progress.finish();
+  if (metrics) metrics->write(metricsTable(recording.metrics, recording.seconds));
+  if (trajectory) trajectory->commit();
+  if (metrics) metrics->commit();
+  writeRunRecord(record, recording, end, checker, folder);
+  tell(options, scene, recording);
+  if (!end.problem.empty()) note("dbd: " + end.problem + "\n");
+  return end.code;
+}
+
+}  // namespace
+
+void addSimulate(CLI::App& line, Action& action) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command = line.add_subcommand("simulate", "Step a scene without drawing");
+  addScene(*command, options->common);
+  command
+      ->add_option("--trajectory", options->trajectory,
+                   "Table of every body in every frame; - is standard output")
+      ->type_name("F.csv");
+  command
+      ->add_option("--metrics", options->metrics,
+                   "Table of energies, momenta, errors and times per frame; - is standard output")
+      ->type_name("F.csv");
+  addCommon(*command, options->common);
+  addHash(*command, options->common);
+  command->callback([options, &action] { action = [options] { return simulate(*options); }; });
+}
+
+}  // namespace app

@@ -1,0 +1,200 @@
+// Cells are drawn in parallel; pages are put together on the calling thread.
+#include "app/figure/figure_draw.h"
+
+#include <map>
+
+#include "app/base/interrupt.h"
+#include "app/run/frame_folder.h"
+#include "app/run/pipeline.h"
+#include "render/film.h"
+#include "render/page.h"
+#include "render/png.h"
+#include "scenes/figure/figure_data.h"
+
+namespace app {
+
+namespace {
+
+using scenes::FigureTile;
+using scenes::Rectangle;
+
+render::RendererOptions rendererOptions(const Rectangle& cell, render::Quality quality) {
+  return {cell.width, cell.height, quality, ""};
+}
+
+// Every picture tile in its cell's size; cells of one size share their renderers.
+bool drawTiles(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
+               std::vector<render::Image>& images) {
+  const std::vector<FigureTile>& tiles = plan.sheet.tiles;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> bySize;
+  int total = 0;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    if (tiles[t].isPlot) continue;
+    bySize[{plan.page.cells[t].width, plan.page.cells[t].height}].push_back(t);
+    ++total;
+  }
+  images.resize(tiles.size());
+  Progress progress(drawing.progress, plan.sheet.name, "drawing", total);
+  for (const auto& [size, members] : bySize) {
+    const int workers = std::min(drawing.threads, static_cast<int>(members.size()));
+    Pipeline pipeline(rendererOptions(plan.page.cells[members.front()], drawing.quality), workers,
+                      [&](int tile, const render::Image& image) {
+                        images[static_cast<std::size_t>(tile)] = image;
+                        progress.advance();
+                      });
+    for (const std::size_t t : members) {
+      if (interrupted()) return false;
+      pipeline.draw(static_cast<int>(t), shots.tiles[t]);
+    }
+    pipeline.finish();
+  }
+  progress.finish();
+  return !interrupted();
+}
+
+void addStamp(const std::string& words, const scenes::FigureLayout& layout, const Rectangle& cell,
+              render::Page& page) {
+  if (words.empty()) return;
+  const float size = layout.textSize;
+  page.texts.push_back(
+      {{static_cast<float>(cell.x) + 0.4f * size, static_cast<float>(cell.y) + 1.05f * size},
+       words,
+       size,
+       0,
+       {0.1f, 0.1f, 0.11f, 1},
+       true});
+}
+
+std::string stampOfTile(const scenes::FigureSheet& sheet, const FigureTile& tile, int frame) {
+  const scenes::FigurePanel& panel = sheet.panels[static_cast<std::size_t>(tile.index)];
+  const scenes::Scene& scene = sheet.runs[static_cast<std::size_t>(panel.run)].scene;
+  const bool superimposed = tile.frames.size() > 1;
+  return scenes::stampOf(panel, scene, frame, panel.frames.size() > 1 && !superimposed);
+}
+
+render::Page blankPage(const scenes::FigureLayout& layout) {
+  render::Page page;
+  page.width = layout.width;
+  page.height = layout.height;
+  page.texts = layout.labels;
+  return page;
+}
+
+render::Page composeFigure(const FigurePlan& plan, const FigureShots& shots,
+                           std::vector<render::Image> images) {
+  render::Page page = blankPage(plan.page);
+  for (std::size_t t = 0; t < plan.sheet.tiles.size(); ++t) {
+    const FigureTile& tile = plan.sheet.tiles[t];
+    const Rectangle& cell = plan.page.cells[t];
+    if (tile.isPlot) {
+      const render::Pixel from(static_cast<float>(cell.x), static_cast<float>(cell.y));
+      const render::Pixel size(static_cast<float>(cell.width), static_cast<float>(cell.height));
+      const scenes::FigurePlot& plot = plan.sheet.plots[static_cast<std::size_t>(tile.index)];
+      page.plots.push_back(
+          {from, from + size, scenes::chartOf(plot, shots.series), plan.page.textSize});
+      continue;
+    }
+    page.tiles.push_back({cell.x, cell.y, std::move(images[t])});
+    addStamp(stampOfTile(plan.sheet, tile, tile.frames.back()), plan.page, cell, page);
+  }
+  return page;
+}
+
+// Frames of the film whose cells are all drawn become pages, in order, while others are drawn.
+class FilmFrames {
+ public:
+  FilmFrames(const FigurePlan& plan, const FrameFolder& folder) : plan_(plan), folder_(folder) {}
+
+  void take(int job, const render::Image& image) {  // from any thread
+    const std::lock_guard lock(mutex_);
+    done_[job] = image;
+  }
+
+  void print(Progress& progress) {
+    const int cells = static_cast<int>(plan_.filmTiles.size());
+    while (std::optional<render::Page> page = next(cells)) {
+      render::writePng(printer_.print(*page), folder_.file(printed_ - 1));
+      progress.advance();
+    }
+  }
+
+ private:
+  std::optional<render::Page> next(int cells) {
+    const std::lock_guard lock(mutex_);
+    for (int cell = 0; cell < cells; ++cell) {
+      if (!done_.contains(printed_ * cells + cell)) return std::nullopt;
+    }
+    render::Page page = blankPage(plan_.film);
+    for (int cell = 0; cell < cells; ++cell) {
+      const auto c = static_cast<std::size_t>(cell);
+      const Rectangle& place = plan_.film.cells[c];
+      const auto image = done_.extract(printed_ * cells + cell);
+      page.tiles.push_back({place.x, place.y, std::move(image.mapped())});
+      const FigureTile& tile = plan_.filmTiles[c];
+      const scenes::FigurePanel& panel = plan_.sheet.panels[static_cast<std::size_t>(tile.index)];
+      const scenes::Scene& scene = plan_.sheet.runs[static_cast<std::size_t>(panel.run)].scene;
+      const int frame = plan_.frameInFilm(tile.index, printed_);
+      addStamp(scenes::stampOf(panel, scene, frame, true), plan_.film, place, page);
+    }
+    ++printed_;
+    return page;
+  }
+
+  const FigurePlan& plan_;
+  const FrameFolder& folder_;
+  render::PagePrinter printer_;
+  std::mutex mutex_;
+  std::map<int, render::Image> done_;  // by frame times cells plus cell
+  int printed_ = 0;
+};
+
+bool drawFilm(const FigurePlan& plan, FigureShots& shots, const FigureDrawing& drawing,
+              const FrameFolder& folder) {
+  const int frames = plan.filmFrames(), cells = static_cast<int>(plan.filmTiles.size());
+  Progress progress(drawing.progress, plan.sheet.name, "filming", frames);
+  FilmFrames film(plan, folder);
+  Pipeline pipeline(rendererOptions(plan.film.cells.front(), render::Quality::kStandard),
+                    drawing.threads,
+                    [&](int job, const render::Image& image) { film.take(job, image); });
+  for (int frame = 0; frame < frames; ++frame) {
+    if (interrupted()) return false;
+    for (int cell = 0; cell < cells; ++cell) {
+      auto& pictures = shots.film[static_cast<std::size_t>(cell)];
+      pipeline.draw(frame * cells + cell, std::move(pictures[static_cast<std::size_t>(frame)]));
+    }
+    film.print(progress);
+  }
+  pipeline.finish();
+  film.print(progress);
+  progress.finish();
+  return true;
+}
+
+}  // namespace
+
+bool drawFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
+                const std::filesystem::path& file) {
+  std::vector<render::Image> images;
+  if (!drawTiles(plan, shots, drawing, images)) return false;
+  render::PagePrinter printer;
+  render::writePng(printer.print(composeFigure(plan, shots, std::move(images))), file);
+  return true;
+}
+
+bool filmFigure(const FigurePlan& plan, FigureShots& shots, const FigureDrawing& drawing,
+                const std::filesystem::path& output, const std::filesystem::path& file) {
+  const FrameFolder folder(output);
+  folder.clear();
+  if (!drawFilm(plan, shots, drawing, folder)) return false;
+  render::FilmOptions options;
+  options.framesPerSecond = kFilmRate;
+  try {
+    render::makeFilm(render::frameFiles(folder.path(), 0, plan.filmFrames() - 1, 1), file, options);
+  } catch (const render::FilmError& error) {
+    if (interrupted()) return false;
+    throw EnvironmentError(error.what());
+  }
+  return true;
+}
+
+}  // namespace app

@@ -1,0 +1,40 @@
+// Simulating and drawing a scene into a folder of frames, or continuing where a run was stopped.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/base/progress.h"
+#include "app/run/play.h"
+#include "app/run/run_record.h"
+#include "scenes/view/view.h"
+
+namespace app {
+
+struct RenderJob {
+  render::RendererOptions renderer;
+  scenes::ViewOptions view;
+  std::vector<int> frames;  // ascending
+  std::filesystem::path folder;
+  int threads = 1;
+  bool fresh = false;  // draw all again, whatever the folder holds
+  ProgressMode progress = ProgressMode::kNone;
+};
+
+struct RenderResult {
+  PlayEnd end;
+  RunRecord record;
+  int drawn = 0, kept = 0;  // frames
+};
+
+// Frames that the folder holds already are kept when run.json says that the same program drew them
+// from the same scene with the same settings; the scene is simulated again, which gives the same
+// states. Throws InputError, and leaves the folder as it is, where it holds frames of another run
+// and `fresh` is not asked for.
+RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job);
+
+// The bounds of the whole motion, where the camera of the scene wants them.
+scenes::MotionBounds findBounds(const scenes::Scene& scene, int frames, ProgressMode progress);
+
+}  // namespace app

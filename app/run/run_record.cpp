@@ -1,0 +1,181 @@
+// run.json: what made the files of an output folder, and with which result.
+#include "app/run/run_record.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "app/base/build_info.h"
+#include "app/base/console.h"
+#include "app/base/output_file.h"
+#include "scenes/measure/start_warnings.h"
+
+namespace app {
+
+namespace {
+
+constexpr const char* kFile = "run.json";
+
+Json toJson(const physics::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json describeContact(const physics::ContactSettings& contact) {
+  return {{"friction",
+           {{"static", contact.friction.staticCoefficient},
+            {"dynamic", contact.friction.dynamicCoefficient}}},
+          {"restitution", contact.restitution},
+          {"max_separation_speed", contact.maxSeparationSpeed},
+          {"margin", contact.margin}};
+}
+
+Json describeSettings(const scenes::Scene& scene) {
+  const physics::Settings& s = scene.settings;
+  Json json = {{"duration", scene.duration},
+               {"fps", scene.fps},
+               {"frames", scene.frameCount()},
+               {"seed", scene.seed},
+               {"dt", s.dt},
+               {"substeps", s.substeps},
+               {"iterations", s.iterations},
+               {"method", static_cast<int>(s.method)},
+               {"stepping", static_cast<int>(s.stepping)},
+               {"relaxation", s.relaxation},
+               {"regularisation", s.regularisation}};
+  json["accuracy"] = s.accuracy ? Json(*s.accuracy) : Json();
+  json["gravity"] = s.gravity ? toJson(*s.gravity) : Json();
+  json["contact"] = s.contact ? describeContact(*s.contact) : Json();
+  return json;
+}
+
+}  // namespace
+
+void RunRecord::addSeconds(const std::string& stage, double more) {
+  if (more > 0) seconds[stage] = seconds.value(stage, 0.0) + more;
+}
+
+bool RunRecord::sameStates(const RunRecord& other) const {
+  return program == other.program && scene == other.scene && settings == other.settings;
+}
+
+bool RunRecord::sameFrames(const RunRecord& other) const {
+  return sameStates(other) && picture == other.picture;
+}
+
+RunRecord makeRecord(const scenes::Scene& scene) {
+  RunRecord record;
+  record.program = {{"version", version()},
+                    {"compiler", compiler()},
+                    {"flags", compileFlags()},
+                    {"hash", programHash()}};
+  record.scene = {{"name", scene.name},
+                  {"title", scene.title},
+                  {"description", scene.description},
+                  {"text_hash", hashText(scene.text)},
+                  {"overrides", scene.overrides},
+                  {"effects", scene.effects}};
+  record.settings = describeSettings(scene);
+  record.warnings = scenes::startWarnings(scene);
+  return record;
+}
+
+void noteWarnings(const RunRecord& record) {
+  for (const std::string& warning : record.warnings) {
+    note(fmt::format("dbd: warning: {}: {}\n", record.scene.value("name", ""), warning));
+  }
+}
+
+Json describePicture(const render::RendererOptions& options, const render::Renderer::Info& info,
+                     bool hud, const scenes::Overlays& overlays) {
+  Json shown = Json::array();
+  if (overlays.contacts) shown.push_back("contacts");
+  if (overlays.impulses) shown.push_back("impulses");
+  if (overlays.joints) shown.push_back("joints");
+  if (overlays.centresOfMass) shown.push_back("masses");
+  if (overlays.arms) shown.push_back("arms");
+  if (overlays.armTargets) shown.push_back("arm_targets");
+  if (overlays.armTips) shown.push_back("arm_tips");
+  if (overlays.armCentres) shown.push_back("arm_centres");
+  if (overlays.vectors) shown.push_back("vectors");
+  return {{"width", options.width},
+          {"height", options.height},
+          {"quality", qualityName(options.quality)},
+          {"hud", hud},
+          {"overlays", shown},
+          {"renderer",
+           {{"vendor", info.vendor}, {"renderer", info.renderer}, {"version", info.version}}}};
+}
+
+Json describeVerdicts(const std::vector<scenes::Checker::Verdict>& verdicts) {
+  Json json = Json::array();
+  for (const scenes::Checker::Verdict& verdict : verdicts) {
+    json.push_back({{"metric", verdict.expectation.metric},
+                    {"body", verdict.expectation.body},
+                    {"value", verdict.value},
+                    {"at_time", verdict.atTime},
+                    {"least", verdict.least},
+                    {"most", verdict.most},
+                    {"holds", verdict.holds},
+                    {"text", verdict.text}});
+  }
+  return json;
+}
+
+std::string hexadecimal(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
+  std::ifstream file(folder / kFile);
+  const Json json = Json::parse(file, nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  try {
+    RunRecord record;
+    record.program = json.at("program");
+    record.scene = json.at("scene");
+    record.settings = json.at("settings");
+    record.picture = json.at("picture");
+    record.stateHashes = json.at("state_hashes").get<std::vector<std::string>>();
+    record.expectations = json.at("expectations");
+    record.seconds = json.at("seconds");
+    record.video = json.at("video");
+    record.warnings = json.value("warnings", record.warnings);
+    record.finished = json.at("finished").get<bool>();
+    return record;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+void writeRecord(const RunRecord& record, const std::filesystem::path& folder) {
+  const Json json = {{"program", record.program},
+                     {"scene", record.scene},
+                     {"settings", record.settings},
+                     {"picture", record.picture},
+                     {"finished", record.finished},
+                     {"warnings", record.warnings},
+                     {"video", record.video},
+                     {"seconds", record.seconds},
+                     {"expectations", record.expectations},
+                     {"state_hashes", record.stateHashes}};
+  constexpr int kIndent = 1;
+  writeFile(folder / kFile, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+render::Quality parseQuality(const std::string& word) {
+  using render::Quality;
+  for (const Quality quality : {Quality::kDraft, Quality::kStandard, Quality::kPaper}) {
+    if (word == qualityName(quality)) return quality;
+  }
+  throw scenes::InputError(fmt::format("--quality {}: expected draft, standard or paper", word));
+}
+
+const char* qualityName(render::Quality quality) {
+  switch (quality) {
+    case render::Quality::kDraft:
+      return "draft";
+    case render::Quality::kStandard:
+      return "standard";
+    case render::Quality::kPaper:
+      return "paper";
+  }
+  return "";
+}
+
+}  // namespace app

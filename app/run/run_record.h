@@ -1,0 +1,49 @@
+// run.json: what made the files of an output folder, and with which result.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+#include "scenes/simulation.h"
+
+namespace app {
+
+using Json = nlohmann::ordered_json;
+
+struct RunRecord {
+  // What the states depend on, and what the frames depend on beside them (null: nothing was drawn).
+  Json program, scene, settings, picture;
+
+  std::vector<std::string> stateHashes;  // per frame; empty text: not known
+  Json expectations = Json::array();     // verdicts, once the whole run was simulated
+  Json seconds = Json::object();         // per stage; runs of the same inputs add up
+  Json video;                            // the film and its frames; null: none
+  std::vector<std::string> warnings;     // scenes/measure/start_warnings.h
+  bool finished = false;                 // all that was asked for is written
+
+  void addSeconds(const std::string& stage, double more);
+  bool sameStates(const RunRecord& other) const;
+  bool sameFrames(const RunRecord& other) const;
+};
+
+RunRecord makeRecord(const scenes::Scene& scene);
+void noteWarnings(const RunRecord& record);  // on stderr
+Json describePicture(const render::RendererOptions& options, const render::Renderer::Info& info,
+                     bool hud, const scenes::Overlays& overlays);
+Json describeVerdicts(const std::vector<scenes::Checker::Verdict>& verdicts);
+// "--size, width: 640 -> 1280": what sameFrames() goes by.
+std::vector<std::string> differencesOf(const RunRecord& was, const RunRecord& is);
+std::string hexadecimal(std::uint64_t hash);
+
+// Absent or unreadable: nullopt, and the folder is treated as new.
+std::optional<RunRecord> readRecord(const std::filesystem::path& folder);
+void writeRecord(const RunRecord& record, const std::filesystem::path& folder);
+
+const char* qualityName(render::Quality quality);
+render::Quality parseQuality(const std::string& word);  // throws InputError that names --quality
+
+}  // namespace app

@@ -1,0 +1,47 @@
+// The tables of a case: the cheapest way to an accuracy, and what each method did.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/study/study_plan.h"
+
+namespace app {
+
+constexpr double kTargets[] = {0.01, 0.001, 0.0001};  // of the case's scale
+
+struct CheapestRow {
+  double target = 0;
+  const StudyPoint* ours = nullptr;  // null: none of ours reaches it
+  struct PeerPoint {
+    int method = 0;
+    const StudyPoint* point = nullptr;  // null: it does not reach it
+  };
+  std::vector<PeerPoint> peers;  // those that ran at all
+  // "ours is 12 times faster than Bullet", "Bullet is 1.4 times faster", "only ours gets there"
+  std::string verdict;
+  bool oursWins = true;  // or nobody gets there
+};
+std::vector<CheapestRow> cheapestRows(const StudyResults& results);
+
+struct MethodRow {
+  int method = 0;
+  const StudyPoint* best = nullptr;  // null: nothing is ok
+  std::optional<OrderFit> order;
+  int measured = 0, failed = 0, skipped = 0;
+  std::string refusal;  // why it cannot do the case
+};
+std::vector<MethodRow> methodRows(const StudyResults& results);
+
+std::string percentText(double share);          // "0.1 %"
+std::string secondsText(double seconds);        // "1.3 ms"
+std::string numberText(double value);           // "3.1e-05"
+std::string stepText(const StudyPoint& point);  // "h = 0.01 s", "accuracy 1e-3"
+
+// "ours is the cheapest, or alone, at 60 of 78 goals: 1 % and 0.1 % of 39 cases"
+std::string goalsText(const std::vector<const StudyResults*>& cases);
+
+// What `dbd study accuracy` says about a case.
+std::string summaryText(const StudyResults& results);
+
+}  // namespace app

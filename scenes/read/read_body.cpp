@@ -1,0 +1,127 @@
+// [[body]]: one body with its shape, mass, pose, velocities and colour.
+#include "scenes/read/read_body.h"
+
+#include <fmt/format.h>
+
+#include "physics/make/matter.h"
+#include "scenes/read/read_shape.h"
+#include "scenes/read/recipe.h"
+
+namespace scenes {
+namespace {
+
+using physics::Field;
+using physics::Motion;
+using physics::Unit;
+using physics::Vec3;
+
+physics::Pose readPose(TableReader& reader) {
+  physics::Pose pose;
+  reader(Field{"position", Unit::kPoint}, pose.x);
+  reader(Field{"quaternion"}, pose.q);
+  reader(Field{"rotation"}, pose.q);
+  reader.atMostOne("quaternion", "rotation");
+  return pose;
+}
+
+Motion readMotion(TableReader& reader, bool isPlane) {
+  bool fixed = isPlane, kinematic = false;
+  reader(Field{"fixed"}, fixed);
+  reader(Field{"kinematic"}, kinematic);
+  if (fixed && kinematic) reader.failAt("kinematic", "expected 'fixed' or 'kinematic', not both");
+  if (isPlane && !fixed) reader.failAt("fixed", "expected true: a plane does not move");
+  return fixed ? Motion::kStatic : kinematic ? Motion::kKinematic : Motion::kDynamic;
+}
+
+void readInertia(TableReader& reader, physics::BodyDef& def) {
+  reader(Field{"inertia", Unit::kNone, false, kPositive}, def.inertia);
+  if (!def.inertia) return;
+  const Vec3& inertia = *def.inertia;
+  if (inertia.maxCoeff() > (inertia.sum() - inertia.maxCoeff()) * (1 + 1e-9)) {
+    reader.failAt("inertia", fmt::format("expected moments of which none exceeds the sum of the "
+                                         "other two, got [{}, {}, {}]",
+                                         inertia.x(), inertia.y(), inertia.z()));
+  }
+}
+
+void readMass(TableReader& reader, physics::BodyDef& def) {
+  physics::Matter matter;
+  physics::Matter::fields(reader, matter);
+  reader.atMostOne("mass", "density");
+  def.friction = matter.friction;
+  if (def.motion != Motion::kDynamic && !matter.mass && !matter.density) return;
+  try {
+    def.mass = physics::massOf(def.shape, matter);
+  } catch (const std::invalid_argument& error) {
+    reader.failAt("density", error.what());
+  }
+}
+
+void readVelocity(TableReader& reader, physics::BodyDef& def) {
+  reader(Field{"velocity"}, def.velocity.v);
+  reader(Field{"angular_velocity"}, def.velocity.w);
+  for (const char* key : {"velocity", "angular_velocity"}) {
+    if (def.motion == Motion::kStatic && reader.has(key)) {
+      reader.failAt(key, "expected none: the body is fixed (kinematic = true moves it)");
+    }
+  }
+}
+
+}  // namespace
+
+void readBody(TableReader& reader, Recipe& recipe) {
+  const std::string name =
+      readName(reader, fmt::format("body.{}", recipe.trial().world.bodyCount() - 1));
+  physics::BodyDef def;
+  reader(Field{"substeps", Unit::kNone, false, 1, 1e6}, def.substeps);
+  PlacedShape placed{def.shape, {}};
+  if (const Value* shape = reader.take("shape")) {
+    placed = readShape(*shape, reader.spot(Field{"shape"}));
+  } else {
+    reader.failHere("expected a value for 'shape'");
+  }
+  def.shape = placed.shape;
+  const physics::Pose pose = readPose(reader);
+  def.pose = {pose.x + pose.q * placed.toFile.x, (pose.q * placed.toFile.q).normalized()};
+  def.motion = readMotion(reader, std::holds_alternative<physics::Plane>(def.shape));
+  readMass(reader, def);
+  readInertia(reader, def);
+  readVelocity(reader, def);
+  std::optional<render::Color> color;
+  readColor(reader, color);
+  if (recipe.trial().ids.contains(name)) {
+    reader.failAt("name", fmt::format("expected a new name, '{}' is a body already", name));
+  }
+  recipe.add(reader, [=](Built& built) {
+    const physics::BodyId id = built.world.add(def);
+    const bool moves = def.motion == Motion::kDynamic;
+    const render::Color own =
+        moves ? familyColor(Pattern::kSingle, built.families++, 0) : fixedColor();
+    built.name(id, name, color.value_or(own));
+  });
+}
+
+void readColor(TableReader& reader, std::optional<render::Color>& color) {
+  const Value* value = reader.take("color");
+  if (value == nullptr) return;
+  const Spot spot = reader.spot(Field{"color", Unit::kNone, false, 0, 1});
+  const std::size_t count = value->items.size();
+  if (value->isArray() && (count == 3 || count == 4)) {
+    std::vector<double> parts;
+    readValue(*value, spot, parts);
+    color = render::Color(0, 0, 0, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      (*color)[static_cast<Eigen::Index>(i)] = static_cast<float>(parts[i]);
+    }
+    return;
+  }
+  if (value->isString()) color = namedColor(value->text);
+  if (!color) {
+    failExpected(
+        spot, *value,
+        "[r, g, b] or [r, g, b, a] in [0, 1], '#rrggbb', '#rrggbbaa' or the name of a colour" +
+            std::string(value->isString() ? didYouMean(value->text, colorNames()) : ""));
+  }
+}
+
+}  // namespace scenes

@@ -1,0 +1,21 @@
+// [[body]], [[ragdoll]] and what is soft, and what generators share with them.
+#pragma once
+
+#include "render/picture.h"
+#include "scenes/read/table_reader.h"
+
+namespace scenes {
+
+class Recipe;
+
+void readBody(TableReader& reader, Recipe& recipe);
+void readRagdoll(TableReader& reader, Recipe& recipe);
+void readRope(TableReader& reader, Recipe& recipe);
+void readCloth(TableReader& reader, Recipe& recipe);
+void readSoftBody(TableReader& reader, Recipe& recipe);
+
+// color = [r, g, b], "#rrggbb" or a hue's name; with a fourth part what shows through: [r, g, b, a]
+// or "#rrggbbaa", where 1 and ff are opaque.
+void readColor(TableReader& reader, std::optional<render::Color>& color);
+
+}  // namespace scenes

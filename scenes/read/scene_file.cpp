@@ -1,0 +1,138 @@
+// A scene file from its text to a checked Scene: settings, bodies, constraints, camera and
+// expectations.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "scenes/measure/metrics.h"
+#include "scenes/read/recipe.h"
+#include "scenes/read/settings_reader.h"
+#include "scenes/study/stability_case.h"
+
+namespace scenes {
+namespace {
+
+using physics::Field;
+using physics::Unit;
+
+constexpr int kMostFrames = 10'000'000;
+
+void readHead(TableReader& root, Scene& scene) {
+  root(Field{"title"}, scene.title);
+  root(Field{"description"}, scene.description);
+  root(Field{"duration", Unit::kNone, false, kPositive}, scene.duration);
+  if (scene.title.empty()) scene.title = scene.name;
+}
+
+// Every word there is, so that a misspelt table is reported before what it lacks is missed.
+void checkWords(TableReader& root) {
+  for (const char* word : {"title", "description", "duration", "simulation", "gravity", "contact",
+                           "sleep", "camera", "light", "overlays", "golden", "expect"}) {
+    root.take(word);
+  }
+  for (const Word& word : bodyWords()) root.take(word.name);
+  for (const Word& word : constraintWords()) root.take(word.name);
+  root.finish();
+}
+
+void checkDuration(const TableReader& root, const Scene& scene) {
+  const double frames = scene.duration * scene.fps;
+  if (frames <= kMostFrames) return;
+  fail(root.context(), root.table().find("duration")->place,
+       fmt::format("duration: expected at most {} frames, got {:.0f}", kMostFrames, frames));
+}
+
+void readWords(TableReader& root, Recipe& recipe, std::span<const Word> words) {
+  for (const Word& word : words) {
+    readTables(root, word.name, [&](TableReader& reader) { word.read(reader, recipe); });
+  }
+}
+
+void checkExpectedBodies(const TableReader& root, const Scene& scene, const Built& trial) {
+  const Context& context = root.context();
+  const auto known = [&](const std::string& pattern) {
+    if (trial.ids.contains(pattern)) return true;
+    for (const std::string& name : trial.names) {
+      if (matches(pattern, name)) return true;
+    }
+    return false;
+  };
+  for (const Expectation& expectation : scene.expectations) {
+    if (expectation.body.empty() || known(expectation.body)) continue;
+    fail(context, {expectation.line, expectation.column, {}},
+         fmt::format("expect: no body '{}'{}", expectation.body,
+                     didYouMean(expectation.body, trial.names)));
+  }
+  if (!known(scene.camera.fit)) {
+    fail(context, root.table().find("camera")->find("fit")->place,
+         fmt::format("camera.fit: no body '{}'{}", scene.camera.fit,
+                     didYouMean(scene.camera.fit, trial.names)));
+  }
+}
+
+// The words that switch something on, in the order of the file.
+std::vector<std::string> effectsOf(const Value& root, const Scene& scene) {
+  std::vector<std::string> effects;
+  for (const Member& member : root.members) {
+    const std::string& word = member.key;
+    const auto isIt = [&](const Word& known) { return word == known.name; };
+    const auto bodies = bodyWords();
+    const auto constraints = constraintWords();
+    const bool generator = word != "body" && std::any_of(bodies.begin(), bodies.end(), isIt);
+    const bool constraint = std::any_of(constraints.begin(), constraints.end(), isIt);
+    if (word == "gravity" || generator || constraint) effects.push_back(word);
+  }
+  if (scene.settings.contact) effects.emplace_back("contact");
+  if (scene.settings.contact && scene.settings.contact->restitution > 0) {
+    effects.emplace_back("restitution");
+  }
+  if (scene.settings.sleep) effects.emplace_back("sleep");
+  return effects;
+}
+
+physics::Settings checkedSettings(const TableReader& root, const physics::Settings& settings) {
+  try {
+    const physics::World trial(settings);
+  } catch (const std::invalid_argument& error) {
+    root.failAt("simulation", error.what());
+  }
+  return settings;
+}
+
+}  // namespace
+
+int Scene::frameCount() const { return static_cast<int>(std::lround(duration * fps)) + 1; }
+
+Scene parseScene(const std::string& text, const std::string& path,
+                 std::span<const std::string> overrides, Glossary* glossary) {
+  Value tree = parseToml(text, path);
+  for (const std::string& setting : applyStability(tree, path, overrides)) {
+    applyOverride(tree, setting);
+  }
+  Scene scene;
+  scene.name = std::filesystem::path(path).stem().string();
+  scene.path = path;
+  scene.text = text;
+  scene.overrides.assign(overrides.begin(), overrides.end());
+  Context context{path, nullptr, glossary};
+  TableReader root(tree, "", context);
+  checkWords(root);
+  readHead(root, scene);
+  readSettings(root, scene);
+  checkDuration(root, scene);
+  readPresentation(root, scene);
+  scene.settings = checkedSettings(root, scene.settings);
+  Recipe recipe(scene, context);
+  readWords(root, recipe, bodyWords());
+  readWords(root, recipe, constraintWords());
+  checkExpectedBodies(root, scene, recipe.trial());
+  scene.effects = effectsOf(tree, scene);
+  Scene::Content content = recipe.take();
+  content.tree = std::move(tree);
+  scene.content = std::make_shared<const Scene::Content>(std::move(content));
+  return scene;
+}
+
+}  // namespace scenes
