@@ -21,6 +21,7 @@ struct Expectation {  // [[expect]]
   std::optional<double> atMost, atLeast;
   std::optional<double> from, to;  // s, the span it must hold in; absent: the whole run
   int line = 0, column = 0;
+  std::string file;  // where it is not the scene's own: one that it includes
 };
 
 struct CameraKey {

@@ -124,7 +124,8 @@ const Value* Survey::find(const std::string& key) const {
 
 std::string Survey::text(const Place& place, const std::string& what) const {
   if (!place.setting.empty()) return place.setting;
-  const std::string file = std::filesystem::path(scene.path).filename().string();
+  const std::string& path = place.file.empty() ? scene.path : place.file;
+  const std::string file = std::filesystem::path(path).filename().string();
   return fmt::format("{}:{}: {}", file, place.line, what);
 }
 

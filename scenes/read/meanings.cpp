@@ -26,6 +26,8 @@ constexpr Meaning kOwn[] = {
     {"simulation.regularisation_form", "", "whether epsilon gives way or only slows"},
     {"simulation.inertia", "", "plain, or that of (36) for bodies that spin"},
     {"simulation.inertia_refresh", "", "how often inertia follows the turn"},
+    {"repeat.count", "", "how many times"},
+    {"repeat.index", "", "the name that counts from 0; else i"},
     {"gravity.acceleration", "", "m/s^2"},
     {"contact.enabled", "", "false: bodies pass through each other"},
     {"contact.friction", "", "of all that states none of its own"},

@@ -94,7 +94,7 @@ constexpr ShapeWord kShapes[] = {
 
 std::string findMesh(const std::string& file, const Value& value, const Spot& spot) {
   namespace fs = std::filesystem;
-  const fs::path beside = fs::path(spot.context.path).parent_path() / file;
+  const fs::path beside = fs::path(folderOf(spot.context, value.place)) / file;
   const fs::path inAssets = fs::path(assetFolder()) / "meshes" / file;
   std::error_code ignored;
   if (fs::is_regular_file(beside, ignored)) return beside.string();

@@ -36,6 +36,7 @@ struct Spot {
 };
 
 [[noreturn]] void fail(const Context& context, const Place& place, const std::string& message);
+std::string folderOf(const Context& context, const Place& place);  // of the file that it is in
 [[noreturn]] void failExpected(const Spot& spot, const Value& value, const std::string& expected);
 
 // Bounds for numbers that must not be zero; shown as "> 0".

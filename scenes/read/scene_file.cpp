@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "scenes/measure/metrics.h"
+#include "scenes/read/expand.h"
 #include "scenes/read/recipe.h"
 #include "scenes/read/settings_reader.h"
 #include "scenes/study/stability_case.h"
@@ -28,8 +29,9 @@ void readHead(TableReader& root, Scene& scene) {
 
 // Every word there is, so that a misspelt table is reported before what it lacks is missed.
 void checkWords(TableReader& root) {
-  for (const char* word : {"title", "description", "duration", "simulation", "gravity", "contact",
-                           "sleep", "camera", "light", "overlays", "golden", "expect"}) {
+  for (const char* word :
+       {"title", "description", "duration", "simulation", "gravity", "contact", "sleep", "camera",
+        "light", "overlays", "golden", "expect", "include", "parameters", "repeat"}) {
     root.take(word);
   }
   for (const Word& word : bodyWords()) root.take(word.name);
@@ -61,7 +63,7 @@ void checkExpectedBodies(const TableReader& root, const Scene& scene, const Buil
   };
   for (const Expectation& expectation : scene.expectations) {
     if (expectation.body.empty() || known(expectation.body)) continue;
-    fail(context, {expectation.line, expectation.column, {}},
+    fail(context, {expectation.line, expectation.column, {}, expectation.file},
          fmt::format("expect: no body '{}'{}", expectation.body,
                      didYouMean(expectation.body, trial.names)));
   }
@@ -107,16 +109,17 @@ int Scene::frameCount() const { return static_cast<int>(std::lround(duration * f
 
 Scene parseScene(const std::string& text, const std::string& path,
                  std::span<const std::string> overrides, Glossary* glossary) {
+  Context context{path, nullptr, glossary};
   Value tree = parseToml(text, path);
-  for (const std::string& setting : applyStability(tree, path, overrides)) {
-    applyOverride(tree, setting);
-  }
+  const std::string included = includeFiles(tree, context);
+  const auto others = setParameters(tree, applyStability(tree, path, overrides));
+  expand(tree, context);
+  for (const std::string& setting : others) applyOverride(tree, setting);
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.path = path;
-  scene.text = text;
+  scene.text = text + included;
   scene.overrides.assign(overrides.begin(), overrides.end());
-  Context context{path, nullptr, glossary};
   TableReader root(tree, "", context);
   checkWords(root);
   readHead(root, scene);

@@ -134,6 +134,7 @@ void readExpectation(TableReader& reader, Scene& scene) {
   Expectation expectation;
   expectation.line = reader.table().place.line;
   expectation.column = reader.table().place.column;
+  expectation.file = reader.table().place.file;
   readMetric(reader, expectation.metric, expectation.body);
   reader(Field{"at_most"}, expectation.atMost);
   reader(Field{"at_least"}, expectation.atLeast);

@@ -22,7 +22,7 @@ using physics::Vec3;
 
 std::string findAsset(const Value& value, const Spot& spot, const char* folder) {
   if (!value.isString()) failExpected(spot, value, "a name");
-  const fs::path beside = fs::path(spot.context.path).parent_path() / (value.text + ".toml");
+  const fs::path beside = fs::path(folderOf(spot.context, value.place)) / (value.text + ".toml");
   const fs::path asset = fs::path(assetFolder()) / folder / (value.text + ".toml");
   std::error_code ignored;
   if (fs::is_regular_file(asset, ignored)) return asset.string();

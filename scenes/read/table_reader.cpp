@@ -4,12 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace scenes {
 
 void fail(const Context& context, const Place& place, const std::string& message) {
   if (!place.setting.empty()) throw InputError(place.setting + ": " + message);
-  throw InputError(fmt::format("{}:{}:{}: {}", context.path, place.line, place.column, message));
+  const std::string& file = place.file.empty() ? context.path : place.file;
+  throw InputError(fmt::format("{}:{}:{}: {}", file, place.line, place.column, message));
+}
+
+std::string folderOf(const Context& context, const Place& place) {
+  const std::string& file = place.file.empty() ? context.path : place.file;
+  return std::filesystem::path(file).parent_path().string();
 }
 
 void failExpected(const Spot& spot, const Value& value, const std::string& expected) {
@@ -66,9 +73,7 @@ void TableReader::finish() const {
   if (context_.glossary != nullptr) context_.glossary->noteTable(key_);
   for (const Member& member : table_.members) {
     if (knows(member.key)) continue;
-    const bool isTable =
-        member.value.isTable() ||
-        (member.value.isArray() && !member.value.items.empty() && member.value.items[0].isTable());
+    const bool isTable = member.value.isTable() || isTables(member.value);
     fail(context_, member.place,
          fmt::format("{}unknown {} '{}'{}", key_.empty() ? "" : key_ + ": ",
                      isTable ? "table" : "key", member.key, nearestOrAll(member.key, known_)));

@@ -81,20 +81,36 @@ std::vector<std::string> splitKey(const std::string& key, const std::string& set
   return parts;
 }
 
-Value& elementOf(Value& array, const std::string& part, const std::string& where,
-                 const std::string& setting) {
+// The element that `parts` name from `k` on: an index, or a name, which may have dots. `k` moves to
+// the last part that it takes. Past the end: none.
+std::size_t indexOf(const Value& array, const std::vector<std::string>& parts, std::size_t& k) {
+  if (isIndex(parts[k])) return std::stoul(parts[k]);
+  for (std::size_t end = parts.size(); end > k; --end) {
+    const std::string joined =
+        fmt::format("{}", fmt::join(parts.begin() + static_cast<std::ptrdiff_t>(k),
+                                    parts.begin() + static_cast<std::ptrdiff_t>(end), "."));
+    for (std::size_t i = 0; i < array.items.size(); ++i) {
+      const Value* name = array.items[i].find("name");
+      if (name == nullptr || name->text != joined) continue;
+      k = end - 1;
+      return i;
+    }
+  }
+  return array.items.size();
+}
+
+Value& elementOf(Value& array, const std::vector<std::string>& parts, std::size_t& k,
+                 const std::string& where, const std::string& setting) {
+  const std::string& part = parts[k];
+  const std::size_t index = indexOf(array, parts, k);
+  if (index < array.items.size()) return array.items[index];
   if (isIndex(part)) {
-    const size_t index = std::stoul(part);
-    if (index < array.items.size()) return array.items[index];
     throw InputError(fmt::format("{}: {}: expected an index below {}, got {}", setting, where,
                                  array.items.size(), part));
   }
   std::vector<std::string> names;
-  for (Value& item : array.items) {
-    const Value* name = item.find("name");
-    if (name == nullptr) continue;
-    if (name->text == part) return item;
-    names.push_back(name->text);
+  for (const Value& item : array.items) {
+    if (const Value* name = item.find("name")) names.push_back(name->text);
   }
   throw InputError(fmt::format("{}: no {} '{}'{}", setting, where, part, didYouMean(part, names)));
 }
@@ -106,15 +122,13 @@ Value& memberOf(Value& table, const std::string& part, const std::string& settin
   return table.members.back().value;
 }
 
-bool isTableOrTables(const Value& value) {
-  return value.isTable() || (value.isArray() && !value.items.empty() && value.items[0].isTable());
-}
+bool isTableOrTables(const Value& value) { return value.isTable() || isTables(value); }
 
 // False: there is no table, or tables, at that key.
 bool removeTable(Value& root, const std::vector<std::string>& parts, const std::string& setting) {
   Value* parent = &root;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-    Value* next = parent->isArray() ? &elementOf(*parent, parts[i], parts[i - 1], setting)
+    Value* next = parent->isArray() ? &elementOf(*parent, parts, i, parts[i - 1], setting)
                                     : parent->find(parts[i]);
     if (next == nullptr) return false;
     parent = next;
@@ -139,6 +153,19 @@ Value* Value::find(const std::string& key) {
     if (member.key == key) return &member.value;
   }
   return nullptr;
+}
+
+bool isTables(const Value& value) {
+  return value.isArray() && !value.items.empty() && value.items[0].isTable();
+}
+
+std::optional<Value> takeMember(Value& table, const std::string& key) {
+  const auto found = std::find_if(table.members.begin(), table.members.end(),
+                                  [&](const Member& member) { return member.key == key; });
+  if (found == table.members.end()) return std::nullopt;
+  Value value = std::move(found->value);
+  table.members.erase(found);
+  return value;
 }
 
 std::string describe(const Value& value) {
@@ -172,9 +199,10 @@ void applyOverride(Value& root, const std::string& keyAndValue) {
   if (text == "none" && removeTable(root, parts, setting)) return;
   Value* target = &root;
   std::string where;
-  for (const std::string& part : parts) {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const std::string& part = parts[k];
     if (target->isArray()) {
-      target = &elementOf(*target, part, where, setting);
+      target = &elementOf(*target, parts, k, where, setting);
     } else if (target->isTable()) {
       target = &memberOf(*target, part, setting);
     } else {
@@ -189,19 +217,14 @@ void applyOverride(Value& root, const std::string& keyAndValue) {
 
 const Value* findValue(const Value& root, const std::string& key) {
   const Value* found = &root;
-  for (const std::string& part : splitKey(key, key)) {
-    const Value* next = found->find(part);
-    if (found->isArray() && isIndex(part)) {
-      const size_t index = std::stoul(part);
-      next = index < found->items.size() ? &found->items[index] : nullptr;
-    } else if (found->isArray()) {
-      for (const Value& item : found->items) {
-        const Value* name = item.find("name");
-        if (next == nullptr && name != nullptr && name->text == part) next = &item;
-      }
+  const std::vector<std::string> parts = splitKey(key, key);
+  for (std::size_t k = 0; k < parts.size() && found != nullptr; ++k) {
+    if (!found->isArray()) {
+      found = found->find(parts[k]);
+      continue;
     }
-    if (next == nullptr) return nullptr;
-    found = next;
+    const std::size_t index = indexOf(*found, parts, k);
+    found = index < found->items.size() ? &found->items[index] : nullptr;
   }
   return found;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace scenes {
 
 struct Place {
   int line = 0, column = 0;  // 1-based, in the file
-  std::string setting;       // "--set key=value" where the value came from the command line
+  std::string setting{};     // "--set key=value" where the value came from the command line
+  std::string file{};        // where it is not the scene's own: one that it includes
 };
 
 struct Member;
@@ -40,6 +42,10 @@ struct Member {
   Place place;
   Value value;
 };
+
+bool isTables(const Value& value);  // [[rows]] of them
+// Out of a table; nothing where it is not there.
+std::optional<Value> takeMember(Value& table, const std::string& key);
 
 // "-3", "'ball'", "a table": how an error names a value.
 std::string describe(const Value& value);

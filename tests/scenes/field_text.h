@@ -41,7 +41,7 @@ inline std::string textOf(const std::array<double, 2>& p) {
   return fmt::format("[{:.12g}, {:.12g}]", p[0], p[1]);
 }
 inline std::string textOf(const std::array<physics::Vec3, 2>& p) {
-  return "[" + textOf(p[0]) + ", " + textOf(p[1]) + "]";
+  return fmt::format("[{}, {}]", textOf(p[0]), textOf(p[1]));
 }
 inline std::string textOf(const physics::Friction& f) {
   return fmt::format("{{ static = {}, dynamic = {} }}", f.staticCoefficient, f.dynamicCoefficient);

@@ -73,7 +73,7 @@ TEST(Glossary, TellsUnitsRangesAndDefaults) {
 }
 
 TEST(Glossary, TheExamplesOfWordsRun) {
-  for (const char* name : {"joints", "forces"}) {
+  for (const char* name : {"joints", "forces", "repeat"}) {
     Simulation simulation(readScene(libraryFolder() + "/../words/" + name + ".toml"));
     Checker checker(simulation.scene());
     for (int frame = 0; frame < simulation.scene().frameCount(); ++frame) {
