@@ -17,6 +17,7 @@ namespace app {
 namespace {
 
 [[noreturn]] void failOutput(int error) {
+  if (error == EPIPE) throw ReaderGone(std::strerror(error));
   throw EnvironmentError(std::string("standard output: ") + std::strerror(error));
 }
 

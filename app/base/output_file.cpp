@@ -60,6 +60,7 @@ void OutputFile::commit() {
 }
 
 void OutputFile::fail(int error) const {
+  if (standardOutput_ && error == EPIPE) throw ReaderGone(std::strerror(error));
   throw EnvironmentError("cannot write " + path_.string() + ": " +
                          std::strerror(error != 0 ? error : EIO));
 }

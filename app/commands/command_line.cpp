@@ -83,6 +83,8 @@ ExitCode runCommandLine(int argc, const char* const* argv) {
     return code;
   } catch (const scenes::InputError& error) {
     return fail(error.what(), ExitCode::kBadInput);
+  } catch (const ReaderGone&) {
+    return ExitCode::kEnvironment;
   } catch (const EnvironmentError& error) {
     return fail(error.what(), ExitCode::kEnvironment);
   } catch (const CheckFailed& error) {

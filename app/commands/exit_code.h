@@ -20,6 +20,12 @@ class EnvironmentError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Who reads the output has enough, as `head` after its lines: the program ends without a word.
+class ReaderGone : public EnvironmentError {
+ public:
+  using EnvironmentError::EnvironmentError;
+};
+
 // A result is not what it has to be, and the command cannot go on.
 class CheckFailed : public std::runtime_error {
  public:

@@ -16,7 +16,7 @@ namespace {
 using physics::Field;
 using physics::Unit;
 
-constexpr int kMostTurns = 1'000'000, kDeepestRepeat = 8;
+constexpr int kMostTurns = 1'000'000, kMostTables = 300'000, kDeepestRepeat = 8;
 constexpr double kMostInteger = 9007199254740992;  // 2^53
 
 class Expander {
@@ -39,7 +39,7 @@ class Expander {
   Expressions known_;
   std::map<std::string, std::string> texts_;  // parameters that are texts
   bool hasNames_ = false;                     // "{" in a text means something
-  int turns_ = 0;
+  int turns_ = 0, tables_ = 0;                // made by repeats
 };
 
 bool isFormula(const Value& value) { return value.isString() && value.text.starts_with('='); }
@@ -198,6 +198,9 @@ void Expander::turn(const Value& table, Value& into, int depth) {
       fail(context_, member.place, fmt::format("repeat: [{}] is no [[table]]", member.key));
     }
     for (const Value& item : member.value.items) {
+      if (++tables_ > kMostTables) {
+        fail(context_, table.place, fmt::format("repeat: more than {} tables", kMostTables));
+      }
       row->items.push_back(item);
       walk(row->items.back());
     }
