@@ -4,20 +4,6 @@
 #include <Eigen/LU>
 
 namespace physics {
-namespace {
-
-// Keeps the factor regular where rows repeat each other (loops): relative to the row's own A. What
-// it leaves of an error the next iteration takes. NOTES 3.5
-constexpr double kRepeated = 1e-11;
-
-// J_k M^-1 J_i^T of a body.
-Mat3 couple(const IslandRow& k, int p, const IslandRow& i, int q, const BodyInverse& body) {
-  return body.mass * (k.linear[p] * i.linear[q].transpose()) +
-         k.angular[p] * (body.inertia * i.angular[q].transpose());
-}
-
-}  // namespace
-
 RowSystem::RowSystem(std::shared_ptr<const JointTopology> topology)
     : topology_(std::move(topology)),
       diagonal_(topology_->shapes.size()),

@@ -23,6 +23,16 @@ struct BodyInverse {
   Mat3 inertia = Mat3::Zero();  // 1/(kg m^2)
 };
 
+// J_k M^-1 J_i^T of a body that is at place p of row k and q of row i.
+inline Mat3 couple(const IslandRow& k, int p, const IslandRow& i, int q, const BodyInverse& body) {
+  return body.mass * (k.linear[p] * i.linear[q].transpose()) +
+         k.angular[p] * (body.inertia * i.angular[q].transpose());
+}
+
+// Keeps a factor regular where rows repeat each other (loops): relative to the row's own A. What it
+// leaves of an error the next iteration takes. NOTES 3.5
+constexpr double kRepeated = 1e-11;
+
 class RowSystem {
  public:
   RowSystem() = default;

@@ -59,6 +59,7 @@ SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const Bod
   const std::size_t rows = refs_.size(), size = bodies_.size();
   present_.joints = RowSystem(topology_);
   all_ = RowSystem(topology_);
+  if (!topology_->isTree) across_ = CrossSystem(topology_);
   present_.rows.resize(rows);
   present_.pulls.resize(rows);
   present_.inverse.resize(size);

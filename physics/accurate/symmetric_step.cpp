@@ -2,23 +2,11 @@
 #include "physics/accurate/symmetric_step.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "physics/base/rotation.h"
 #include "physics/constraints/constraint_symmetric.h"
 
 namespace physics {
-namespace {
-
-void takeRow(const JointRow& row, IslandRow& to) {
-  for (int b = 0; b < JointRow::kMostBodies; ++b) {
-    to.linear[b] = row.linear[b];
-    to.angular[b] = row.angular[b];
-  }
-}
-
-}  // namespace
-
 void SymmetricStep::put(const IslandState& state, std::span<Pose> to) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) to[bodies_[i]] = state.pose[i];
 }
@@ -129,59 +117,6 @@ void SymmetricStep::move(double h, const Surroundings& world) {
   }
 }
 
-// A spring of w h > 1 is not resolved: of a stiff one steps of different length may agree on what
-// is not its motion, and where they do not, what is extrapolated grows.
-bool SymmetricStep::resolvesForces() const {
-  for (std::size_t i = 0; i < refs_.size(); ++i) {
-    const IslandRow& row = present_.rows[i];
-    if (!isForce_[i] || !row.solved) continue;
-    const JointShape& shape = topology_->shapes[i];
-    Mat3 a = Mat3::Zero();
-    for (int b = 0; b < shape.bodyCount; ++b) {
-      if (!shape.moves[b]) continue;
-      const BodyInverse& body = present_.inverse[shape.body[b]];
-      a += body.mass * (row.linear[b] * row.linear[b].transpose()) +
-           row.angular[b] * (body.inertia * row.angular[b].transpose());
-    }
-    // alpha^-1 is K (h/2)^2, of which A takes (w h/2)^2.
-    double compliance = 0, moves = 0;
-    for (int r = 0; r < shape.rows; ++r) compliance += row.alpha(r, r), moves += a(r, r);
-    if (4 * moves > compliance) return false;
-  }
-  return true;
-}
-
-// Newton's iteration with the factor of the start.
-bool SymmetricStep::close(double h, double tolerance, const Surroundings& world,
-                          const TrialPoses& trial) {
-  const RowSystem* factor = &present_.joints;
-  double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kMostIterations; ++k) {
-    sum();
-    move(h, world);
-    put(to_, trial.end);
-    lookAt(trial.end, trial, world, h);
-    lookAtForces(world, trial, h);
-    double most = 0;
-    for (const Vec3& error : error_) most = std::max(most, error.cwiseAbs().maxCoeff());
-    if (!(most < std::numeric_limits<double>::infinity())) return false;
-    if (most <= tolerance && (k > 0 || !hasForces_)) return true;
-    if (k > 3 && most > 0.5 * last) return most <= 10 * tolerance;
-    last = most;
-    if (k == 0 && !resolvesForces()) return false;
-    if (hasForces_ && k < 2) {
-      all_.factorize(present_.rows, present_.inverse);
-      factor = &all_;
-    }
-    for (Vec3& error : error_) error = -error;
-    factor->solve(error_);
-    for (std::size_t i = 0; i < refs_.size(); ++i) {
-      if (present_.rows[i].solved) lambda_[i] += error_[i];
-    }
-  }
-  return false;
-}
-
 // Velocities at the end: what is halfway, and the other half.
 void SymmetricStep::finish(double h, const Surroundings& world) {
   for (std::size_t i = 0; i < refs_.size(); ++i) {
@@ -274,7 +209,12 @@ bool SymmetricStep::step(double h, double tolerance, const Surroundings& world,
                          const TrialPoses& trial) {
   put(present_.state, trial.start);
   guess(h);
-  if (!close(h, tolerance, world, trial) || meetsLimit(world, trial)) return false;
+  if (!close(h, tolerance, world, trial)) {
+    if (topology_->isTree) return false;
+    guess(h);
+    if (!closeAcross(h, tolerance, world, trial)) return false;
+  }
+  if (meetsLimit(world, trial)) return false;
   finish(h, world);
   turnInertia();
   stop(h);

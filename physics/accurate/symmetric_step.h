@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/accurate/row_system.h"
+#include "physics/accurate/cross_system.h"
 #include "physics/motion/free_motion.h"
 #include "physics/solver/joint_row.h"
 
@@ -33,6 +33,14 @@ struct Surroundings {
   std::span<const Load> loads;
   Vec3 gravity = Vec3::Zero();
 };
+
+template <class Row>
+void takeRow(const Row& row, IslandRow& to) {
+  for (int b = 0; b < JointRow::kMostBodies; ++b) {
+    to.linear[b] = row.linear[b];
+    to.angular[b] = row.angular[b];
+  }
+}
 
 class SymmetricStep {
  public:
@@ -88,7 +96,10 @@ class SymmetricStep {
   void sum();
   void move(double h, const Surroundings& world);
   bool resolvesForces() const;
+  double tryOut(double h, const Surroundings& world, const TrialPoses& trial);
+  void correct();
   bool close(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
+  bool closeAcross(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
   void finish(double h, const Surroundings& world);
   void stop(double h);
   bool meetsLimit(const Surroundings& world, const TrialPoses& trial) const;
@@ -105,6 +116,7 @@ class SymmetricStep {
   std::shared_ptr<const JointTopology> topology_;
   Present present_, first_;
   RowSystem all_;  // with the forces
+  CrossSystem across_;
   std::vector<Vec3> error_, lambda_;
   std::vector<IslandRow> ahead_;  // of joints, where the step ends
   IslandState to_;
