@@ -24,7 +24,7 @@ void begin(WorldState& w, StepReport& report) {
   checkFinite(w, report);
   for (const auto& [body, velocity] : w.last.replaced) checkFinite(w, body, report);
   profileScope("arm");
-  drive(w.arms, w.bodies, w.settings.dt);  // (149)-(154)
+  drive(w.arms, w.bodies, w.settings.dt, w.settings.accuracy);  // (149)-(154)
   profileScope("");
   keepStart(w);
 }

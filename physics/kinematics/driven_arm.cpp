@@ -12,15 +12,40 @@ void follow(DrivenArm& driven, double dt) {
   driven.followed = distance <= most ? driven.target : driven.followed + most / distance * apart;
 }
 
+// False: it is there, or as near as can be.
+bool solveOnce(DrivenArm& driven) {
+  const ArmIteration done = iterate(driven.arm, driven.followed, driven.solve, driven.scratch);
+  driven.held = done.held;
+  if (!done.moved) return false;
+  driven.effort += done.effort;
+  ++driven.iterations;
+  return true;
+}
+
 void solve(DrivenArm& driven) {
   driven.iterations = driven.held = 0;
-  for (int k = 0; k < driven.solve.iterations; ++k) {
-    const ArmIteration done = iterate(driven.arm, driven.followed, driven.solve, driven.scratch);
-    driven.held = done.held;
-    if (!done.moved) return;  // there, or as near as can be
-    driven.effort += done.effort;
-    ++driven.iterations;
+  while (driven.iterations < driven.solve.iterations && solveOnce(driven)) {
   }
+}
+
+// Until the tip is as near as `tolerance` [m], or comes no nearer. The iteration is a steepest
+// descent: the distance itself may grow from one to the next.
+void solve(DrivenArm& driven, double tolerance) {
+  constexpr int kPatience = 20;
+  driven.iterations = driven.held = 0;
+  double nearest = tipError(postureOf(driven.arm), driven.followed).c;
+  for (int k = 0; nearest > tolerance && k < kPatience && solveOnce(driven); ++k) {
+    const double error = tipError(postureOf(driven.arm), driven.followed).c;
+    if (!(error < nearest)) continue;
+    nearest = error;
+    k = -1;
+  }
+}
+
+double lengthOf(const Arm& arm) {
+  double sum = 0;
+  for (const ArmLink& link : arm.links) sum += link.length.norm();
+  return sum;
 }
 
 void moveTo(const Pose& pose, BodyId body, Bodies& bodies, double dt) {
@@ -58,13 +83,18 @@ Pose linkPose(const Arm& arm, const ArmPosture& posture, int k) {
           (posture.q[k] * fromUp(link.direction)).normalized()};
 }
 
-void drive(std::vector<DrivenArm>& arms, Bodies& bodies, double dt) {
+void drive(std::vector<DrivenArm>& arms, Bodies& bodies, double dt,
+           std::optional<double> accuracy) {
   for (DrivenArm& driven : arms) {
     driven.before.joints = driven.arm.joints;
     driven.before.followed = driven.followed;
     driven.before.effort = driven.effort;
     follow(driven, dt);
-    solve(driven);
+    if (accuracy) {
+      solve(driven, *accuracy * lengthOf(driven.arm));
+    } else {
+      solve(driven);
+    }
     place(driven.arm, driven.arm.joints, driven.scratch.now);
     for (int k = 0; k < driven.arm.size(); ++k) {
       moveTo(linkPose(driven.arm, driven.scratch.now, k), driven.bodies[k], bodies, dt);

@@ -34,8 +34,11 @@ BodyDef linkBody(const ArmDef& def, const DrivenArm& driven, int k);
 Pose linkPose(const Arm& arm, const ArmPosture& posture, int k);
 
 // Solves each arm towards its target and gives its bodies the velocities that take them to the new
-// posture in `dt` exactly, each by a constant velocity and turn.
-void drive(std::vector<DrivenArm>& arms, Bodies& bodies, double dt);
+// posture in `dt` exactly, each by a constant velocity and turn. `accuracy`: as many iterations as
+// bring the tip so near, of the arm's length, instead of those that it has; fewer where they do not
+// bring it nearer.
+void drive(std::vector<DrivenArm>& arms, Bodies& bodies, double dt,
+           std::optional<double> accuracy = {});
 
 // Takes the last `drive` back.
 void undo(std::vector<DrivenArm>& arms);

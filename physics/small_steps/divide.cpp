@@ -57,7 +57,8 @@ void SmallSteps::Impl::learn(Model& w) {
   finer.clear();
   for (const BodyId root : roots) {
     const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
-    const bool isDirect = mesh.fill <= (mesh.points ? kMostFillOfPoints : kMostFill);
+    const bool isSwept = mesh.points && !w.settings.accuracy;  // sweeps close it by little
+    const bool isDirect = mesh.fill <= (isSwept ? kMostFillOfPoints : kMostFill);
     if (mesh.points || !isDirect) {
       deformables.emplace_back(rows[root], w.kinds, w.bodies.inverse, isDirect);
       for (const BodyId i : deformables.back().bodies()) {
