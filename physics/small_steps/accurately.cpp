@@ -156,9 +156,16 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
   constexpr int kMostPlaces = 4;
   StepChoice& choice = choices[batch.bodies.front()];
   AccuracyReport told;
+  bool hits = false;  // an impact comes next: by itself, and what flies on then flies exactly
   begin(w, batch);
   for (double left = dt; left > 0;) {
-    const double whole = std::min(std::max(choice.next(left, dt), kLeastPart * dt), left);
+    if (const double flown = flyToTouch(w, batch, left); flown > 0) {
+      left = flown == left ? 0 : left - flown;
+      hits = w.settings.contact->restitution > 0;
+      continue;
+    }
+    const double next = hits ? 0 : choice.next(left, dt);
+    const double whole = std::min(std::max(next, kLeastPart * dt), left);
     const int columns = choice.columns();
     const int most = std::max(columns, static_cast<int>(std::ceil(count * whole / dt)));
     keepStart(w, batch);
@@ -172,9 +179,10 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
     }
     if (isSmall) {
       takeBest(w, batch, whole);
-      choice.accept(whole, trial.error, trial.coarser, trial.allowed, dt);
+      if (!hits) choice.accept(whole, trial.error, trial.coarser, trial.allowed, dt);
       told.order = std::max(told.order, columns);
     }
+    hits = false;
     takeOver(w, batch, whole / most);
     batch.joints.finish(w.kinds, whole / most);
     ++told.accepted;
@@ -183,6 +191,25 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
     left = whole == left ? 0 : left - whole;
   }
   add(told, report.accuracy);
+  if (told.accepted > 0) {
+    ask(w, batch, dt / count);
+  } else {
+    rest(batch);
+  }
+}
+
+// Its contacts have carried nothing.
+void SmallSteps::Impl::rest(Batch& batch) {
+  for (const int k : batch.contacts) {
+    KeptContact& c = contacts[k];
+    c.lambda = c.before = c.held = {};
+    c.tangential.setZero();
+    c.twist = 0;
+  }
+  for (const BodyId i : batch.bodies) {
+    asked[i] = 0;
+    askedSweeps[i] = 1;
+  }
 }
 
 }  // namespace physics

@@ -1,34 +1,86 @@
 // Bodies that nothing holds: exactly, in one go.
+#include <algorithm>
+#include <limits>
+
 #include "physics/motion/free_motion.h"
+#include "physics/motion/restitution.h"
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
-// Bodies that nothing holds.
+
+// A body that nothing holds, by dt.
+void SmallSteps::Impl::fly(const Model& w, BodyId i, double dt, Pose& pose, Velocity& v) const {
+  const Bodies& b = w.bodies;
+  Vec3 gain = Vec3::Zero();
+  if (b.motion[i] == Motion::kDynamic) {
+    if (w.settings.gravity) gain = dt * *w.settings.gravity;
+    gain += dt * b.inverse[i].m * w.loads[i].force;
+  }
+  pose.x += dt * (v.v + 0.5 * gain);
+  v.v += gain;
+  if (b.inverseInertia[i].isZero(0) || isIsotropic(b.inertia[i])) {
+    v.w += dt * b.inverseInertia[i].x() * w.loads[i].torque;
+    if (!v.w.isZero(0)) pose.q = (exponential(dt * v.w) * pose.q).normalized();
+    return;
+  }
+  const Mat3 r = pose.q.toRotationMatrix();
+  Vec3 omega = r.transpose() * v.w;
+  omega += dt * b.inverseInertia[i].cwiseProduct(r.transpose() * w.loads[i].torque);
+  const FreeTurn turn = freeTurn(b.inertia[i], omega, dt);
+  const Vec3 theta = dt * (r * turn.mean);
+  v.w = exponential(theta) * (r * turn.after);
+  pose.q = (exponential(theta) * pose.q).normalized();
+}
+
 void SmallSteps::Impl::fly(Model& w, double dt) {
   Bodies& b = w.bodies;
   for (const BodyId i : free) {
-    Velocity& v = b.velocity[i];
     b.start[i] = b.pose[i];
-    Vec3 gain = Vec3::Zero();
-    if (b.motion[i] == Motion::kDynamic) {
-      if (w.settings.gravity) gain = dt * *w.settings.gravity;
-      gain += dt * b.inverse[i].m * w.loads[i].force;
-    }
-    b.pose[i].x += dt * (v.v + 0.5 * gain);
-    v.v += gain;
-    if (b.inverseInertia[i].isZero(0) || isIsotropic(b.inertia[i])) {
-      v.w += dt * b.inverseInertia[i].x() * w.loads[i].torque;
-      if (!v.w.isZero(0)) b.pose[i].q = (exponential(dt * v.w) * b.pose[i].q).normalized();
-      continue;
-    }
-    const Mat3 r = b.pose[i].q.toRotationMatrix();
-    Vec3 omega = r.transpose() * v.w;
-    omega += dt * b.inverseInertia[i].cwiseProduct(r.transpose() * w.loads[i].torque);
-    const FreeTurn turn = freeTurn(b.inertia[i], omega, dt);
-    const Vec3 theta = dt * (r * turn.mean);
-    v.w = exponential(theta) * (r * turn.after);
-    b.pose[i].q = (exponential(theta) * b.pose[i].q).normalized();
+    fly(w, i, dt, b.pose[i], b.velocity[i]);
   }
+}
+
+// The least gap of a batch's contacts, where its bodies are after a flight of so long [m].
+double SmallSteps::Impl::gapAfter(const Model& w, const Batch& batch, double time) {
+  for (const BodyId i : batch.bodies) {
+    Velocity v = w.bodies.velocity[i];
+    trialNow[i] = w.bodies.pose[i];
+    fly(w, i, time, trialNow[i], v);
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const int k : batch.contacts) {
+    const KeptContact& c = contacts[k];
+    for (const BodyId i : {c.a, c.b}) {
+      if (!isMovable(w.bodies, i)) trialNow[i] = w.bodies.pose[i];
+    }
+    const ContactPair pair = pairOf(c, 0);
+    for (int p = 0; p < pair.count; ++p) least = std::min(least, gapOf(pair, p, trialNow));
+  }
+  return least;
+}
+
+// As long as nothing in the batch touches its bodies fly, to where two of them meet. Returns for
+// how long.
+double SmallSteps::Impl::flyToTouch(Model& w, const Batch& batch, double most) {
+  constexpr int kLooks = 8, kHalvings = 52;
+  const Bodies& b = w.bodies;
+  const auto isDriven = [&](BodyId i) { return b.motion[i] == Motion::kKinematic; };
+  const auto byDriven = [&](int k) { return isDriven(contacts[k].a) || isDriven(contacts[k].b); };
+  if (batch.isMixed() || std::any_of(batch.contacts.begin(), batch.contacts.end(), byDriven) ||
+      !(gapAfter(w, batch, 0) > kClose)) {
+    return 0;
+  }
+  double open = 0, closed = 0;
+  for (int look = 1; look <= kLooks && closed == 0; ++look) {
+    const double time = look == kLooks ? most : look * most / kLooks;
+    (gapAfter(w, batch, time) > 0 ? open : closed) = time;
+  }
+  for (int k = 0; k < kHalvings && closed > 0; ++k) {
+    const double middle = 0.5 * (open + closed);
+    (gapAfter(w, batch, middle) > 0 ? open : closed) = middle;
+  }
+  for (const BodyId i : batch.bodies) fly(w, i, open, w.bodies.pose[i], w.bodies.velocity[i]);
+  return open;
 }
 
 }  // namespace physics

@@ -114,7 +114,6 @@ void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
     keepStart(w, batches[k]);
     if (stepsAccurately(w, batches[k])) {
       advanceAccurately(w, batches[k], dt, count, report);
-      ask(w, batches[k], h);
       continue;
     }
     run(w, batches[k], h, count, report);

@@ -270,6 +270,10 @@ struct SmallSteps::Impl {
   void want(BodyId body, int count, SubstepLaw by);
   void ask(Model& w, const Batch& batch, double h);
   void fly(Model& w, double dt);
+  void fly(const Model& w, BodyId i, double dt, Pose& pose, Velocity& v) const;
+  double gapAfter(const Model& w, const Batch& batch, double time);
+  double flyToTouch(Model& w, const Batch& batch, double most);
+  void rest(Batch& batch);
   void finish(Model& w, Batch& batch, double h);
   void advancePart(Model& w, int parts, StepReport& report);
   void advance(Model& w, StepReport& report);
