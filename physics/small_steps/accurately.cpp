@@ -12,6 +12,11 @@ Surroundings surroundingsOf(const Model& w) {
   return {w.kinds, w.bodies, w.loads, w.settings.gravity.value_or(Vec3::Zero())};
 }
 
+// Contacts are in single precision: of a displacement no less than this part is known.
+constexpr double kKnown = 1e-6;
+
+double square(double x) { return x * x; }
+
 void add(const AccuracyReport& of, AccuracyReport& to) {
   to.accepted += of.accepted;
   to.rejected += of.rejected;
@@ -91,6 +96,47 @@ double SmallSteps::Impl::sizeOf(const Bodies& b, const Batch& batch) const {
   return (high - low).norm();
 }
 
+// What a sweep has changed, and the largest way [m]: points of bodies, in this substep.
+double SmallSteps::Impl::changeOf(const Batch& batch, double& way) {
+  double change = 0;
+  swept.resize(batch.motions.size());
+  for (std::size_t s = 1; s < batch.motions.size(); ++s) {
+    const LaneMotion& now = batch.motions[s];
+    double du = 0, dturn = 0, u = 0, turn = 0;
+    for (int k = 0; k < 3; ++k) {
+      du += square(now.u[k] - swept[s].u[k]);
+      dturn += square(now.turn[k] - swept[s].turn[k]);
+      u += square(now.u[k]);
+      turn += square(now.turn[k]);
+      swept[s].u[k] = now.u[k];
+      swept[s].turn[k] = now.turn[k];
+    }
+    const double arm = radius[batch.slots[s]];
+    change = std::max(change, std::sqrt(du) + arm * std::sqrt(dturn));
+    way = std::max(way, std::sqrt(u) + arm * std::sqrt(turn));
+  }
+  return change;
+}
+
+// What the next sweep over contacts alone may be the last one after, where it changes no more.
+void SmallSteps::Impl::watchVelocities(const Model& w, const Batch& batch) {
+  double way = 0;
+  if (stepsAccurately(w, batch)) changeOf(batch, way);
+}
+
+// Sweeps until they change velocities by no more than is asked.
+void SmallSteps::Impl::closeVelocities(Model& w, Batch& batch, double h) {
+  constexpr int kMost = 16;
+  if (!stepsAccurately(w, batch)) return;
+  const double fall = w.settings.gravity ? h * h * w.settings.gravity->norm() : 0;
+  const double part = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
+  for (int s = 0; s < kMost; ++s) {
+    double way = fall;
+    if (changeOf(batch, way) <= part * way) return;
+    sweepContactVelocities(w, batch, {.first = false, .last = true});
+  }
+}
+
 void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) goBack(b, batch, k);
 }
@@ -133,8 +179,6 @@ void SmallSteps::Impl::takeBest(Model& w, const Batch& batch, double whole) {
 }
 
 void SmallSteps::Impl::begin(const Model& w, const Batch& batch) {
-  // Contacts are in single precision: displacements are no better known than by this part.
-  constexpr double kKnown = 1e-5;
   const std::size_t size = batch.bodies.size();
   trial.extent = sizeOf(w.bodies, batch);
   trial.allowed = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
@@ -156,12 +200,14 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
   constexpr int kMostPlaces = 4;
   StepChoice& choice = choices[batch.bodies.front()];
   AccuracyReport told;
+  int flights = 0;
   bool hits = false;  // an impact comes next: by itself, and what flies on then flies exactly
   begin(w, batch);
   for (double left = dt; left > 0;) {
-    if (const double flown = flyToTouch(w, batch, left); flown > 0) {
+    if (const double flown = flights < kMostPlaces ? flyToTouch(w, batch, left) : 0; flown > 0) {
       left = flown == left ? 0 : left - flown;
       hits = w.settings.contact->restitution > 0;
+      ++flights;
       continue;
     }
     const double next = hits ? 0 : choice.next(left, dt);

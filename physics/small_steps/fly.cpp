@@ -62,22 +62,33 @@ double SmallSteps::Impl::gapAfter(const Model& w, const Batch& batch, double tim
 // As long as nothing in the batch touches its bodies fly, to where two of them meet. Returns for
 // how long.
 double SmallSteps::Impl::flyToTouch(Model& w, const Batch& batch, double most) {
-  constexpr int kLooks = 8, kHalvings = 52;
+  constexpr double kKnownGap = 1e-13;  // m
+  constexpr int kLooks = 4, kMostSecants = 40;
   const Bodies& b = w.bodies;
   const auto isDriven = [&](BodyId i) { return b.motion[i] == Motion::kKinematic; };
   const auto byDriven = [&](int k) { return isDriven(contacts[k].a) || isDriven(contacts[k].b); };
-  if (batch.isMixed() || std::any_of(batch.contacts.begin(), batch.contacts.end(), byDriven) ||
-      !(gapAfter(w, batch, 0) > kClose)) {
+  if (batch.isMixed() || std::any_of(batch.contacts.begin(), batch.contacts.end(), byDriven)) {
     return 0;
   }
-  double open = 0, closed = 0;
+  double open = 0, gap = gapAfter(w, batch, 0), closed = 0, overlap = 0;
+  if (!(gap > kClose)) return 0;
   for (int look = 1; look <= kLooks && closed == 0; ++look) {
-    const double time = look == kLooks ? most : look * most / kLooks;
-    (gapAfter(w, batch, time) > 0 ? open : closed) = time;
+    const double time = look == kLooks ? most : look * most / kLooks,
+                 then = gapAfter(w, batch, time);
+    if (then > 0) open = time, gap = then;
+    if (!(then > 0)) closed = time, overlap = -then;
   }
-  for (int k = 0; k < kHalvings && closed > 0; ++k) {
-    const double middle = 0.5 * (open + closed);
-    (gapAfter(w, batch, middle) > 0 ? open : closed) = middle;
+  // Secants between a time with a gap and one without; what stays is given half of its weight.
+  const double known = 1e-15 * most;
+  for (int k = 0; k < kMostSecants && closed - open > known; ++k) {
+    const double time = (overlap * open + gap * closed) / (overlap + gap);
+    const double then = gapAfter(w, batch, time);
+    if (then > 0) {
+      open = time, gap = then, overlap *= 0.5;
+    } else {
+      closed = time, overlap = -then, gap *= 0.5;
+    }
+    if (then >= 0 && then < kKnownGap) break;
   }
   for (const BodyId i : batch.bodies) fly(w, i, open, w.bodies.pose[i], w.bodies.velocity[i]);
   return open;

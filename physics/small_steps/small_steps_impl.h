@@ -145,6 +145,7 @@ struct SmallSteps::Impl {
     double extent = 0, allowed = 0, error = 0, coarser = 0;  // coarser: by a column less
     int places = 0;                                          // bodies that err by too much
   } trial;
+  std::vector<LaneStart> swept;       // by slot: after the last sweep
   bool known = false;                 // these are those of the world's constraints
   std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
   std::vector<int> asked, askedSweeps;
@@ -181,6 +182,9 @@ struct SmallSteps::Impl {
   bool advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report);
   bool stepsAccurately(const Model& w, const Batch& batch) const;
   void advanceAccurately(Model& w, Batch& batch, double dt, int count, StepReport& report);
+  double changeOf(const Batch& batch, double& way);
+  void watchVelocities(const Model& w, const Batch& batch);
+  void closeVelocities(Model& w, Batch& batch, double h);
   double sizeOf(const Bodies& b, const Batch& batch) const;
   void begin(const Model& w, const Batch& batch);
   void tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report);

@@ -275,7 +275,9 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
       if (learning) {
         balanceContacts(w, batch);
       } else {
+        if (!isMixed && s + 1 == batch.sweeps) watchVelocities(w, batch);
         sweepContactVelocities(w, batch, {.first = s == 0, .last = s + 1 == batch.sweeps});
+        if (!isMixed && s + 1 == batch.sweeps) closeVelocities(w, batch, h);
       }
       if (!isMixed) continue;
       fromLanes(w, batch);
