@@ -162,15 +162,14 @@ void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int columns,
     tryOut(w, batch, whole, (most * j + columns - 1) / columns, report);
     trial.coarser = trial.error;
     if (j == 1) continue;
-    trial.error =
-        trial.tableau.difference(trial.extent, whole, trial.turns, trial.allowed, &trial.places);
+    trial.error = trial.tableau.difference(trial.extent, trial.time, trial.turns, trial.allowed,
+                                           &trial.places);
   }
 }
 
-// What rests is left to rest: where the last row's end is as good, it is that.
-void SmallSteps::Impl::takeBest(Model& w, const Batch& batch, double whole) {
-  constexpr double kPlain = 0.1;
-  if (!(trial.tableau.gain(trial.extent, whole, trial.turns) > kPlain * trial.allowed)) return;
+// What rests is left to rest: where the last row's end is known no better, it is that.
+void SmallSteps::Impl::takeBest(Model& w, const Batch& batch) {
+  if (!(trial.tableau.gain(trial.extent, trial.time, trial.turns) > kKnown)) return;
   trial.tableau.best(trial.pose, trial.velocity);
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
     w.bodies.pose[batch.bodies[k]] = trial.pose[k];
@@ -178,9 +177,10 @@ void SmallSteps::Impl::takeBest(Model& w, const Batch& batch, double whole) {
   }
 }
 
-void SmallSteps::Impl::begin(const Model& w, const Batch& batch) {
+void SmallSteps::Impl::begin(const Model& w, const Batch& batch, double dt) {
   const std::size_t size = batch.bodies.size();
   trial.extent = sizeOf(w.bodies, batch);
+  trial.time = dt;
   trial.allowed = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
   trial.turns.resize(size);
   trial.pose.resize(size);
@@ -202,7 +202,7 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
   AccuracyReport told;
   int flights = 0;
   bool hits = false;  // an impact comes next: by itself, and what flies on then flies exactly
-  begin(w, batch);
+  begin(w, batch, dt);
   for (double left = dt; left > 0;) {
     if (const double flown = flights < kMostPlaces ? flyToTouch(w, batch, left) : 0; flown > 0) {
       left = flown == left ? 0 : left - flown;
@@ -224,8 +224,10 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
       continue;
     }
     if (isSmall) {
-      takeBest(w, batch, whole);
-      if (!hits) choice.accept(whole, trial.error, trial.coarser, trial.allowed, dt);
+      if (!hits) {  // a jump is no smoother in shorter substeps
+        takeBest(w, batch);
+        choice.accept(whole, trial.error, trial.coarser, trial.allowed, dt);
+      }
       told.order = std::max(told.order, columns);
     }
     hits = false;

@@ -63,7 +63,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   inertias.resize(bodies);
   spins.resize(bodies);
   meanSpins.resize(bodies, Vec3::Zero());
-  choices.resize(bodies, StepChoice(1, 3, kMostTouchingColumns));
+  choices.resize(bodies, StepChoice(1, 2, kMostTouchingColumns));
   load.resize(bodies);
   sag.resize(bodies);
   drawn.resize(bodies);

@@ -142,6 +142,7 @@ struct SmallSteps::Impl {
     std::vector<Pose> pose;
     std::vector<Velocity> velocity;
     std::vector<char> turns;
+    double time = 0;  // that an error of velocity lasts: of the step, not of a part of it
     double extent = 0, allowed = 0, error = 0, coarser = 0;  // coarser: by a column less
     int places = 0;                                          // bodies that err by too much
   } trial;
@@ -186,10 +187,10 @@ struct SmallSteps::Impl {
   void watchVelocities(const Model& w, const Batch& batch);
   void closeVelocities(Model& w, Batch& batch, double h);
   double sizeOf(const Bodies& b, const Batch& batch) const;
-  void begin(const Model& w, const Batch& batch);
+  void begin(const Model& w, const Batch& batch, double dt);
   void tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report);
   void tryOut(Model& w, Batch& batch, double whole, int columns, int most, StepReport& report);
-  void takeBest(Model& w, const Batch& batch, double whole);
+  void takeBest(Model& w, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch, std::size_t k);
   void run(Model& w, Batch& batch, double h, int count, StepReport& report);
