@@ -6,12 +6,6 @@
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
-namespace {
-
-constexpr int kByItself = -2;  // of a body's batch: it has stepped, by an accuracy
-
-}  // namespace
-
 void SmallSteps::clear(Batch& batch) {
   batch.bodies.clear();
   batch.contacts.clear();
@@ -76,6 +70,8 @@ void SmallSteps::Impl::learn(Model& w) {
 }
 
 namespace {
+
+BodyId moverOf(const Bodies& b, const KeptContact& c) { return isMovable(b, c.a) ? c.a : c.b; }
 
 // The largest speed that two bodies have along the normal, at a point of their contact.
 double approachOf(const Bodies& b, const KeptContact& c) {
@@ -146,16 +142,19 @@ void SmallSteps::Impl::joinSoft(const Model& w, const SoftPair& pair) {
   join(w.bodies, islands, softMoverOf(w, pair), pair.body);
 }
 
+bool SmallSteps::Impl::touchesNow(const Bodies& b, const KeptContact& c) const {
+  const auto waits = [&](BodyId i) { return isMovable(b, i) && !steps[i]; };
+  return !waits(c.a) && !waits(c.b);
+}
+
 bool SmallSteps::Impl::softStepsNow(const Model& w, const SoftPair& pair) const {
   return steps[softMoverOf(w, pair)] && (!isMovable(w.bodies, pair.body) || steps[pair.body]);
 }
 
-// Of those that step now: islands by constraints and contacts, and the batch that each steps with.
-void SmallSteps::Impl::divide(Model& w, double dt, AccuracyReport& report) {
+// Of those that step now: islands by constraints and contacts, and what each asks for.
+void SmallSteps::Impl::divide(Model& w) {
   const Bodies& b = w.bodies;
-  const auto bodyOf = [&](const KeptContact& c) { return isMovable(b, c.a) ? c.a : c.b; };
-  const auto waits = [&](BodyId i) { return isMovable(b, i) && !steps[i]; };
-  const auto stepsNow = [&](const KeptContact& c) { return !waits(c.a) && !waits(c.b); };
+  const auto stepsNow = [&](const KeptContact& c) { return touchesNow(b, c); };
   stepping.clear();
   for (const BodyId i : b.active) {
     if (steps[i]) stepping.push_back(i);
@@ -187,7 +186,7 @@ void SmallSteps::Impl::divide(Model& w, double dt, AccuracyReport& report) {
   }
   for (const KeptContact& c : contacts) {
     if (!stepsNow(c)) continue;
-    const BodyId root = islands[bodyOf(c)];
+    const BodyId root = islands[moverOf(b, c)];
     held[root] = Held::kTouching;
     want(root, substepsForApproach(w, c), SubstepLaw::kApproach);
     substeps[root] = std::max(substeps[root], asked[root]);
@@ -196,12 +195,6 @@ void SmallSteps::Impl::divide(Model& w, double dt, AccuracyReport& report) {
     Held& island = held[islands[softMoverOf(w, pair)]];
     if (softStepsNow(w, pair)) island = std::max(island, Held::kJoined);
   }
-  assign(w, dt, report);
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    if (!stepsNow(contacts[k])) continue;
-    batches[batchOf[bodyOf(contacts[k])]].contacts.push_back(static_cast<int>(k));
-  }
-  assignSoft(w);
 }
 
 // Contacts of points and links to the batch of their island; those that wait stay with the world.
@@ -217,37 +210,40 @@ void SmallSteps::Impl::assignSoft(Model& w) {
   });
 }
 
-// Bodies to the batch of their island.
-void SmallSteps::Impl::assign(Model& w, double dt, AccuracyReport& report) {
+// Islands to the batch that each steps with, but for those that have stepped.
+void SmallSteps::Impl::assign(Model& w) {
   batchCount = 0;
   free.clear();
-  for (const BodyId i : stepping) {
-    const BodyId root = islands[i];
-    if (batchOf[root] == kByItself) continue;
-    if (batchOf[root] < 0 && dt > 0 && held[root] != Held::kTouching &&
-        advanceAccurately(w, root, dt, report)) {
-      batchOf[root] = kByItself;
-      continue;
-    }
-    if (held[root] == Held::kNot) {
-      free.push_back(i);
-      continue;
-    }
-    if (batchOf[root] < 0) {
-      const Batch& batch = batchFor(w, root);
-      batchOf[root] = static_cast<int>(&batch - batches.data());
-    }
-    batchOf[i] = batchOf[root];
-    substeps[i] = substeps[root];
-    batches[batchOf[i]].bodies.push_back(i);
-    const int articulation = articulationOf[i];
-    if (articulation >= 0 && articulations[articulation].bodies().front() == i) {
-      batches[batchOf[i]].articulations.push_back(articulation);
-    }
-    const int deformable = deformableOf[i];
-    if (deformable >= 0 && deformables[deformable].bodies().front() == i) {
-      batches[batchOf[i]].deformables.push_back(deformable);
-    }
+  for (const BodyId i : stepping) assign(w, i);
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    if (!touchesNow(w.bodies, contacts[k])) continue;
+    batches[batchOf[moverOf(w.bodies, contacts[k])]].contacts.push_back(static_cast<int>(k));
+  }
+  assignSoft(w);
+}
+
+void SmallSteps::Impl::assign(const Model& w, BodyId i) {
+  const BodyId root = islands[i];
+  if (batchOf[root] == kByItself) return;
+  if (held[root] == Held::kNot) {
+    free.push_back(i);
+    return;
+  }
+  if (batchOf[root] < 0) {
+    const Batch& batch = batchFor(w, root);
+    batchOf[root] = static_cast<int>(&batch - batches.data());
+  }
+  batchOf[i] = batchOf[root];
+  substeps[i] = substeps[root];
+  Batch& batch = batches[batchOf[i]];
+  batch.bodies.push_back(i);
+  const int articulation = articulationOf[i];
+  if (articulation >= 0 && articulations[articulation].bodies().front() == i) {
+    batch.articulations.push_back(articulation);
+  }
+  const int deformable = deformableOf[i];
+  if (deformable >= 0 && deformables[deformable].bodies().front() == i) {
+    batch.deformables.push_back(deformable);
   }
 }
 

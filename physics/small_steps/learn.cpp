@@ -22,8 +22,8 @@ void SmallSteps::Impl::learnLoads(Model& w) {
   if (!contacts.empty()) {
     learning = true;
     for (const BodyId i : w.bodies.active) steps[i] = 1;
-    AccuracyReport none;
-    divide(w, 0, none);
+    divide(w);
+    assign(w);
     for (std::size_t k = 0; k < batchCount; ++k) learnLoads(w, batches[k]);
     gatherSoft(w);
     for (Articulation& articulation : articulations) articulation.forget();

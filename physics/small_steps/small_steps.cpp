@@ -102,7 +102,9 @@ void SmallSteps::Impl::finish(Model& w, Batch& batch, double h) {
 // while they step.
 void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
   const double dt = w.settings.dt / parts;
-  divide(w, dt, report.accuracy);
+  divide(w);
+  advanceAccurately(w, dt, report.accuracy);
+  assign(w);
   tell(w, parts);
   fly(w, dt);
   report.work.moves += static_cast<std::int64_t>(free.size());

@@ -8,8 +8,9 @@
 //   take_turns.cpp    contacts and joints in turns, and that no energy comes of it
 //   renew.cpp         rows anew of what has turned far
 //   substep.cpp       a substep of a batch
-//   fly.cpp           bodies that nothing holds
-//   accurately.cpp    islands that step by an accuracy
+//   fly.cpp           bodies that nothing holds, and those that are about to meet
+//   accurately.cpp    islands that step by an accuracy, and touch nothing
+//   accurately_touching.cpp  and those that touch
 //   bounce.cpp        restitution
 //   look.cpp          the contacts of a step, and which islands look for them twice
 //   again.cpp         steps that joints could not be closed in, with more substeps
@@ -68,6 +69,8 @@ constexpr int kLeastBodies = 64, kLeastBlocks = 8;
 
 constexpr int kMostSubsteps = 64;
 
+constexpr int kByItself = -2;  // of a body's batch: its island has stepped, by an accuracy
+
 // Of what is swept: of ropes, of contacts in turns with joints, and of contacts about deep
 // overlaps, where a push finds its way through a column of five in that many.
 constexpr int kPositionSweeps = 4;
@@ -121,6 +124,9 @@ inline void startRows(LaneMotion& motion) {
 void emptyLane(ContactBlock& block, int l);
 void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& block, int l);
 Softness softnessOf(const Bodies& b, const KeptContact& c);
+
+// What islands tell together.
+void add(const AccuracyReport& of, AccuracyReport& to);
 
 struct SmallSteps::Impl {
   std::vector<KeptContact> contacts, before;
@@ -180,6 +186,7 @@ struct SmallSteps::Impl {
 
   void learn(Model& w);
   void learnAccurate(const Model& w, const std::vector<std::vector<JointRef>>& rows);
+  void advanceAccurately(Model& w, double dt, AccuracyReport& report);
   bool advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report);
   bool stepsAccurately(const Model& w, const Batch& batch) const;
   void advanceAccurately(Model& w, Batch& batch, double dt, int count, StepReport& report);
@@ -201,9 +208,11 @@ struct SmallSteps::Impl {
   bool chooseMet(Model& w);
   bool choose(const Model& w, int parts);
   void spread(Model& w);
-  void divide(Model& w, double dt, AccuracyReport& report);
+  bool touchesNow(const Bodies& b, const KeptContact& c) const;
+  void divide(Model& w);
   int substepsForApproach(const Model& w, const KeptContact& c) const;
-  void assign(Model& w, double dt, AccuracyReport& report);
+  void assign(Model& w);
+  void assign(const Model& w, BodyId i);
   Batch& batchFor(const Model& w, BodyId root);
   int colourOf(const Bodies& b, const KeptContact& c);
   BodyId leaderOf(BodyId i) const;

@@ -170,6 +170,75 @@ TEST(Accuracy, IsOfTheDefaultOnlyWhereAsked) {
   EXPECT_THROW(World(asking(std::nan(""))), std::invalid_argument);
 }
 
+// A parallelogram of bars of 1 m on ball sockets, upright and moving: it passes through the pose in
+// which all bars lie in a line, where it may fold the other way.
+struct Parallelogram {
+  explicit Parallelogram(double accuracy) : world(asking(accuracy)) {
+    const auto bar = [&](const Vec3& size, const Vec3& x, const Vec3& v, double w) {
+      BodyDef def;
+      def.shape = Box{size};
+      def.pose.x = x;
+      def.velocity.v = v;
+      def.velocity.w = Vec3(0, 0, w);
+      return world.add(def);
+    };
+    const Vec3 up(0.04, 1, 0.04), along(1, 0.04, 0.04);
+    left = bar(up, {0, 0.5, 0}, {0.5, 0, 0}, -1);
+    right = bar(up, {1, 0.5, 0}, {0.5, 0, 0}, -1);
+    top = bar(along, {0.5, 1, 0}, {1, 0, 0}, 0);
+    hang(kWorldBody, {0, 0, 0}, left, {0, -0.5, 0});
+    hang(kWorldBody, {1, 0, 0}, right, {0, -0.5, 0});
+    hang(left, {0, 0.5, 0}, top, {-0.5, 0, 0});
+    hang(top, {0.5, 0, 0}, right, {0, 0.5, 0});
+  }
+  void hang(BodyId a, const Vec3& onA, BodyId b, const Vec3& onB) {
+    BallSocketDef joint;
+    joint.bodies = {a, b};
+    joint.anchors = {onA, onB};
+    world.add(joint);
+  }
+  World world;
+  BodyId left, right, top;
+};
+
+TEST(Accuracy, GoesStraightThroughAPoseOfDependentRows) {
+  Parallelogram bars(1e-4);
+  double lowest = 1;
+  for (int k = 0; k < 240; ++k) {  // 4 s: over and back several times
+    bars.world.step();
+    const std::vector<Pose> pose = bars.world.bodies().pose;
+    lowest = std::min(lowest, pose[bars.top].x.y());
+    EXPECT_NEAR(pose[bars.right].x.x() - pose[bars.left].x.x(), 1, 1e-3) << k;
+    EXPECT_NEAR(pose[bars.right].x.y() - pose[bars.left].x.y(), 0, 1e-3) << k;
+  }
+  EXPECT_LT(lowest, -0.5);  // it did pass
+}
+
+// Heights between impacts, against parabolas: v^2/(2 g) e^2 of the one before.
+TEST(Accuracy, OfABouncingBallIsThatOfItsParabolas) {
+  constexpr double e = 0.8, drop = 1;
+  Settings settings = asking(1e-5);
+  settings.contact = ContactSettings{};
+  settings.contact->restitution = e;
+  World world(settings);
+  BodyDef floor;
+  floor.motion = Motion::kStatic;
+  floor.shape = Plane{};
+  world.add(floor);
+  BodyDef ball;
+  ball.shape = Sphere{0.1};
+  ball.pose.x = Vec3(0, 0.1 + drop, 0);
+  const BodyId body = world.add(ball);
+  double speed = std::sqrt(2 * kGravity * drop), hit = speed / kGravity, start = -hit;
+  for (int k = 1; k * settings.dt < 3; ++k) {
+    world.step();
+    const double t = k * settings.dt;
+    for (; t > hit; hit += 2 * speed / kGravity) start = hit, speed *= e;
+    const double flown = t - start, height = (speed - 0.5 * kGravity * flown) * flown;
+    EXPECT_NEAR(world.bodies().pose[body].x.y() - 0.1, height, 1e-5) << t;
+  }
+}
+
 // A box slides to a stop: v^2/(2 nu g) far, the default being off by v h/2.
 TEST(Accuracy, FindsWhereSlidingEnds) {
   const auto slide = [](std::optional<double> accuracy) {

@@ -1,0 +1,197 @@
+// Islands that step by an accuracy and touch.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+namespace {
+
+// Contacts are in single precision: of a displacement no less than this part is known.
+constexpr double kKnown = 1e-6;
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+bool SmallSteps::Impl::stepsAccurately(const Model& w, const Batch& batch) const {
+  return w.settings.accuracy && batch.touches && batch.deformables.empty() &&
+         batch.softPairs.empty();
+}
+
+// The largest extent of what moves [m].
+double SmallSteps::Impl::sizeOf(const Bodies& b, const Batch& batch) const {
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const BodyId i : batch.bodies) {
+    low = low.cwiseMin(b.pose[i].x - Vec3::Constant(radius[i]));
+    high = high.cwiseMax(b.pose[i].x + Vec3::Constant(radius[i]));
+  }
+  return (high - low).norm();
+}
+
+// What a sweep has changed, and the largest way [m]: points of bodies, in this substep.
+double SmallSteps::Impl::changeOf(const Batch& batch, double& way) {
+  double change = 0;
+  swept.resize(batch.motions.size());
+  for (std::size_t s = 1; s < batch.motions.size(); ++s) {
+    const LaneMotion& now = batch.motions[s];
+    double du = 0, dturn = 0, u = 0, turn = 0;
+    for (int k = 0; k < 3; ++k) {
+      du += square(now.u[k] - swept[s].u[k]);
+      dturn += square(now.turn[k] - swept[s].turn[k]);
+      u += square(now.u[k]);
+      turn += square(now.turn[k]);
+      swept[s].u[k] = now.u[k];
+      swept[s].turn[k] = now.turn[k];
+    }
+    const double arm = radius[batch.slots[s]];
+    change = std::max(change, std::sqrt(du) + arm * std::sqrt(dturn));
+    way = std::max(way, std::sqrt(u) + arm * std::sqrt(turn));
+  }
+  return change;
+}
+
+// What the next sweep over contacts alone may be the last one after, where it changes no more.
+void SmallSteps::Impl::watchVelocities(const Model& w, const Batch& batch) {
+  double way = 0;
+  if (stepsAccurately(w, batch)) changeOf(batch, way);
+}
+
+// Sweeps until they change velocities by no more than is asked.
+void SmallSteps::Impl::closeVelocities(Model& w, Batch& batch, double h) {
+  constexpr int kMost = 16;
+  if (!stepsAccurately(w, batch)) return;
+  const double fall = w.settings.gravity ? h * h * w.settings.gravity->norm() : 0;
+  const double part = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
+  for (int s = 0; s < kMost; ++s) {
+    double way = fall;
+    if (changeOf(batch, way) <= part * way) return;
+    sweepContactVelocities(w, batch, {.first = false, .last = true});
+  }
+}
+
+void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) goBack(b, batch, k);
+}
+
+// From where `batch.kept` stands, in so many substeps, to the next row of its tableau.
+void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report) {
+  goBack(w.bodies, batch);
+  run(w, batch, whole / steps, steps, report);
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    trial.pose[k] = w.bodies.pose[batch.bodies[k]];
+    trial.velocity[k] = w.bodies.velocity[batch.bodies[k]];
+  }
+  trial.tableau.add(steps, 1, trial.pose, trial.velocity);
+}
+
+// A step of `whole`, by a tableau whose last row has so many substeps.
+void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int columns, int most,
+                              StepReport& report) {
+  trial.error = trial.coarser = std::numeric_limits<double>::infinity();
+  trial.places = 0;
+  trial.tableau.clear(batch.bodies.size());
+  for (int j = 1; j <= columns; ++j) {
+    tryOut(w, batch, whole, (most * j + columns - 1) / columns, report);
+    trial.coarser = trial.error;
+    if (j == 1) continue;
+    trial.error = trial.tableau.difference(trial.extent, trial.time, trial.turns, trial.allowed,
+                                           &trial.places);
+  }
+}
+
+// What rests is left to rest: where the last row's end is known no better, it is that.
+void SmallSteps::Impl::takeBest(Model& w, const Batch& batch) {
+  if (!(trial.tableau.gain(trial.extent, trial.time, trial.turns) > kKnown)) return;
+  trial.tableau.best(trial.pose, trial.velocity);
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    w.bodies.pose[batch.bodies[k]] = trial.pose[k];
+    w.bodies.velocity[batch.bodies[k]] = trial.velocity[k];
+  }
+}
+
+void SmallSteps::Impl::begin(const Model& w, const Batch& batch, double dt) {
+  const std::size_t size = batch.bodies.size();
+  trial.extent = sizeOf(w.bodies, batch);
+  trial.time = dt;
+  trial.allowed = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
+  trial.turns.resize(size);
+  trial.pose.resize(size);
+  trial.velocity.resize(size);
+  for (std::size_t k = 0; k < size; ++k) {
+    trial.turns[k] = !w.bodies.inverseInertia[batch.bodies[k]].isZero(0);
+  }
+}
+
+// An island that touches, by the substeps of the default: their error has all powers of h while
+// nothing comes into touch or leaves it, and the steps are divided about where something does.
+// Where that is in many places at once no step resolves it: it goes on by the default, and the
+// estimate tells.
+void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int count,
+                                         StepReport& report) {
+  constexpr double kLeastPart = 1.0 / 1024;
+  constexpr int kMostPlaces = 4;
+  StepChoice& choice = choices[batch.bodies.front()];
+  AccuracyReport told;
+  int flights = 0;
+  bool hits = false;  // an impact comes next: by itself, and what flies on then flies exactly
+  begin(w, batch, dt);
+  for (double left = dt; left > 0;) {
+    if (const double flown = flights < kMostPlaces ? flyToTouch(w, batch, left) : 0; flown > 0) {
+      left = flown == left ? 0 : left - flown;
+      hits = w.settings.contact->restitution > 0;
+      ++flights;
+      continue;
+    }
+    const double next = hits ? 0 : choice.next(left, dt);
+    const double whole = std::min(std::max(next, kLeastPart * dt), left);
+    const int columns = choice.columns();
+    const int most = std::max(columns, static_cast<int>(std::ceil(count * whole / dt)));
+    keepStart(w, batch);
+    tryOut(w, batch, whole, columns, most, report);
+    const bool isSmall = trial.error <= trial.allowed;
+    if (!isSmall && whole > kLeastPart * dt && trial.places <= kMostPlaces) {
+      ++told.rejected;
+      goBack(w.bodies, batch);
+      choice.reject(whole, trial.error, trial.allowed);
+      continue;
+    }
+    if (isSmall) {
+      if (!hits) {  // a jump is no smoother in shorter substeps
+        takeBest(w, batch);
+        choice.accept(whole, trial.error, trial.coarser, trial.allowed, dt);
+      }
+      told.order = std::max(told.order, columns);
+    }
+    hits = false;
+    takeOver(w, batch, whole / most);
+    batch.joints.finish(w.kinds, whole / most);
+    ++told.accepted;
+    told.least = told.least > 0 ? std::min(told.least, whole) : whole;
+    told.estimate += trial.error;
+    left = whole == left ? 0 : left - whole;
+  }
+  add(told, report.accuracy);
+  if (told.accepted > 0) {
+    ask(w, batch, dt / count);
+  } else {
+    rest(batch);
+  }
+}
+
+// Its contacts have carried nothing.
+void SmallSteps::Impl::rest(Batch& batch) {
+  for (const int k : batch.contacts) {
+    KeptContact& c = contacts[k];
+    c.lambda = c.before = c.held = {};
+    c.tangential.setZero();
+    c.twist = 0;
+  }
+  for (const BodyId i : batch.bodies) {
+    asked[i] = 0;
+    askedSweeps[i] = 1;
+  }
+}
+
+}  // namespace physics
