@@ -16,7 +16,6 @@ constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 0.1;
 // On the average of the load that is 0.38 of a cube's radius over (n/2)^2, n/2 being how often the
 // contacts carry the weight of an island: a quarter of it.
 constexpr double kLargestDrawn = 0.1;
-constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 constexpr double kLargestTurn =
     0.05;  // rad, of what is solved at once: its rows are taken as straight
 // Of its weight, what a body with joints may carry while contacts and joints take turns: a round

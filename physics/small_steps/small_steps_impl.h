@@ -69,6 +69,8 @@ constexpr int kLeastBodies = 64, kLeastBlocks = 8;
 
 constexpr int kMostSubsteps = 64;
 
+constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
+
 constexpr int kByItself = -2;  // of a body's batch: its island has stepped, by an accuracy
 
 // Of what is swept: of ropes, of contacts in turns with joints, and of contacts about deep
