@@ -10,16 +10,6 @@ namespace app {
 
 namespace {
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += c;
-    result += c;
-  }
-  return result + '"';
-}
-
 std::vector<std::string> constraintKinds(const std::vector<scenes::FrameMetrics>& metrics) {
   std::vector<std::string> kinds;
   for (const scenes::FrameMetrics& frame : metrics) {
@@ -40,6 +30,16 @@ double errorOf(const scenes::FrameMetrics& frame, const std::string& kind) {
 
 }  // namespace
 
+std::string csvText(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += c;
+    result += c;
+  }
+  return result + '"';
+}
+
 std::string trajectoryHeader() { return "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n"; }
 
 std::string trajectoryRows(const scenes::Simulation& simulation) {
@@ -56,7 +56,7 @@ std::string trajectoryRows(const scenes::Simulation& simulation) {
                              velocity.v.y(), velocity.v.z(), velocity.w.x(), velocity.w.y(),
                              velocity.w.z()};
     rows += start;
-    rows += quoted(simulation.bodyName(body));
+    rows += csvText(simulation.bodyName(body));
     for (const double value : values) fmt::format_to(std::back_inserter(rows), ",{:.17g}", value);
     rows += '\n';
   }

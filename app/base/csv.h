@@ -12,6 +12,9 @@ struct StageSeconds {  // spent on one frame
   double simulate = 0, view = 0, draw = 0, write = 0;
 };
 
+// A field, in quotes where it needs them.
+std::string csvText(const std::string& text);
+
 std::string trajectoryHeader();
 // One row per body of the present frame, the world itself left out. Numbers carry 17 digits.
 std::string trajectoryRows(const scenes::Simulation& simulation);

@@ -49,6 +49,7 @@ ExitCode chooseAndRun(int argc, const char* const* argv) {
   addRender(line, action);
   addFigures(line, action);
   addStudy(line, action);
+  addTrust(line, action);
   addGolden(line, action);
   addCompare(line, action);
   addCheck(line, action);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "app/base/interrupt.h"
 #include "app/base/stopwatch.h"
 #include "app/commands/commands.h"
+#include "app/commands/picture_options.h"
 #include "app/run/frame_range.h"
 #include "app/run/render_run.h"
 #include "render/film.h"
@@ -18,49 +18,13 @@ namespace app {
 
 namespace {
 
-constexpr int kLeastSide = 16, kMostSide = 8192;  // pixels
-
 struct RenderOptions {
   CommonOptions common;
-  std::string frames = ":", size, quality = "standard";
+  PictureOptions picture;
+  std::string frames = ":";
   std::vector<std::string> overlays;
   bool video = false, hud = false, fresh = false, resume = false;
 };
-
-struct QualityChoice {
-  render::Quality quality;
-  int width, height;
-};
-
-QualityChoice chooseQuality(const std::string& name) {
-  switch (parseQuality(name)) {
-    case render::Quality::kDraft:
-      return {render::Quality::kDraft, 640, 360};
-    case render::Quality::kPaper:
-      return {render::Quality::kPaper, 1920, 1080};
-    case render::Quality::kStandard:
-      break;
-  }
-  return {render::Quality::kStandard, 1280, 720};
-}
-
-void parseSize(const std::string& text, render::RendererOptions& options) {
-  const std::size_t cross = text.find('x');
-  const auto parse = [&text](const char* begin, const char* end) {
-    int side = 0;
-    const auto [stop, error] = std::from_chars(begin, end, side);
-    if (error != std::errc() || stop != end || side < kLeastSide || side > kMostSide) {
-      throw scenes::InputError(fmt::format(
-          "--size {}: expected WxH, each from {} to {}, as 1280x720", text, kLeastSide, kMostSide));
-    }
-    return side;
-  };
-  const char* const begin = text.data();
-  const char* const end = begin + text.size();
-  const char* const middle = cross == std::string::npos ? end : begin + cross;
-  options.width = parse(begin, middle);
-  options.height = parse(middle == end ? end : middle + 1, end);
-}
 
 scenes::Overlays chooseOverlays(scenes::Overlays overlays, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
@@ -85,12 +49,8 @@ scenes::Overlays chooseOverlays(scenes::Overlays overlays, const std::vector<std
 }
 
 RenderJob makeJob(const RenderOptions& options, const scenes::Scene& scene) {
-  const QualityChoice quality = chooseQuality(options.quality);
   RenderJob job;
-  job.renderer.quality = quality.quality;
-  job.renderer.width = quality.width;
-  job.renderer.height = quality.height;
-  if (!options.size.empty()) parseSize(options.size, job.renderer);
+  job.renderer = options.picture.renderer();
   job.view.hud = options.hud;
   job.view.overlays = chooseOverlays(scene.overlays, options.overlays);
   job.view.aspect = static_cast<double>(job.renderer.width) / job.renderer.height;
@@ -131,12 +91,6 @@ void makeVideo(const scenes::Scene& scene, const RenderJob& job, RenderResult& r
   result.record.video = made;
   result.record.seconds["film"] = watch.seconds();
   writeRecord(result.record, job.folder);
-}
-
-void requireFfmpeg() {
-  if (!render::ffmpegVersion().empty()) return;
-  throw EnvironmentError(
-      "--video: cannot run ffmpeg; install it with: sudo apt-get install -y ffmpeg");
 }
 
 std::string summary(const scenes::Scene& scene, const RenderJob& job, const RenderResult& result) {
@@ -181,15 +135,12 @@ ExitCode renderScene(const RenderOptions& options) {
   return result.end.code;
 }
 
-void addPictureOptions(CLI::App& command, RenderOptions& options) {
+void addViewOptions(CLI::App& command, RenderOptions& options) {
   command
       .add_option("--frames", options.frames,
                   "Frames A to B-1 in steps of S, as Python slices; one number is one frame [all]")
       ->type_name("A:B:S");
-  command.add_option("--size", options.size, "Pixels [640x360, 1280x720, 1920x1080 by quality]")
-      ->type_name("WxH");
-  command.add_option("--quality", options.quality, "Effort of drawing [standard]")
-      ->type_name("draft|standard|paper");
+  addPictureOptions(command, options.picture);
   command.add_flag("--hud", options.hud, "Show time, counts and running plots in the picture");
   command
       .add_option("--overlays", options.overlays,
@@ -206,7 +157,7 @@ void addRender(CLI::App& line, Action& action) {
   CLI::App* command = line.add_subcommand("render", "Simulate a scene and draw its frames as PNG");
   addScene(*command, options->common);
   command->add_flag("--video", options->video, "Also make DIR/NAME.mp4");
-  addPictureOptions(*command, *options);
+  addViewOptions(*command, *options);
   CLI::Option* resume = command->add_flag(
       "--resume", options->resume,
       "Keep the frames of an earlier, same run; refuse those of another (the default)");

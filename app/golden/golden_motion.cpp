@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "app/base/build_info.h"
+#include "app/base/length_text.h"
+#include "app/trust/difference.h"
 
 namespace app {
 
@@ -20,17 +22,6 @@ Json toJson(const physics::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 physics::Vec3 vectorFrom(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-std::string lengthText(double metres) {
-  const struct {
-    const char* unit;
-    double size;
-  } units[] = {{"km", 1e3}, {"m", 1}, {"mm", 1e-3}, {"um", 1e-6}, {"nm", 1e-9}};
-  for (const auto& [unit, size] : units) {
-    if (metres >= size) return fmt::format("{:.3g} {}", metres / size, unit);
-  }
-  return fmt::format("{:.3g} m", metres);
 }
 
 std::string namesOf(const scenes::Simulation& simulation) {
@@ -107,10 +98,8 @@ GoldenMotion MotionRecorder::take(const std::optional<scenes::MotionBounds>& bou
 
 std::string describeParting(const GoldenMotion& approved, const GoldenMotion& now, int frame,
                             const std::vector<std::string>& bodyNames) {
-  const std::size_t frames = std::min(approved.states.size(), now.states.size());
-  std::size_t first = 0;
-  while (first < frames && approved.states[first] == now.states[first]) ++first;
-  if (first >= frames || static_cast<int>(first) > frame) return "";
+  const int first = firstDifference(approved.states, now.states);
+  if (first < 0 || first > frame) return "";
   return fmt::format("first at frame {}{}", first, furthestText(approved, now, frame, bodyNames));
 }
 

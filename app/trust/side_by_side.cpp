@@ -1,0 +1,227 @@
+// Draws two placed simulations with one camera, and puts their pictures on a page.
+#include "app/trust/side_by_side.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "app/base/interrupt.h"
+#include "app/run/pipeline.h"
+#include "render/film.h"
+#include "render/page.h"
+#include "render/png.h"
+#include "scenes/view/view.h"
+
+namespace app {
+
+namespace {
+
+const render::Color kInk{0.13f, 0.14f, 0.16f, 1}, kMark{0.84f, 0.10f, 0.12f, 1};
+const render::Color kTrusted{0.20f, 0.63f, 0.38f, 1}, kBeyond{0.93f, 0.80f, 0.78f, 1};
+constexpr int kSides = 2;
+
+// Where things are on the page; pixels at 720 lines, scaled.
+struct SideLayout {
+  explicit SideLayout(const render::RendererOptions& options)
+      : width(options.width), height(options.height), scale(static_cast<float>(height) / 720) {
+    const int rule = px(2);
+    top = px(34);
+    paneWidth = std::max(1, (width - rule) / kSides);
+    paneHeight = std::max(1, height - top - px(58));
+    barTop = height - px(46);
+    barLeft = px(16);
+    barRight = std::max(barLeft + 1, width - px(16));
+    barBottom = barTop + px(10);
+  }
+  int px(float pixels) const { return std::max(1, static_cast<int>(std::lround(scale * pixels))); }
+  int leftOf(int side) const { return side == 0 ? 0 : width - paneWidth; }
+  int barAt(double share) const {
+    return barLeft +
+           static_cast<int>(std::lround((barRight - barLeft) * std::clamp(share, 0., 1.)));
+  }
+
+  int width, height;
+  float scale;
+  int top = 0, paneWidth = 0, paneHeight = 0;
+  int barTop = 0, barBottom = 0, barLeft = 0, barRight = 0;
+};
+
+render::Page::Tile filled(int left, int top, int right, int bottom, const render::Color& color) {
+  render::Page::Tile tile{left, top, {std::max(0, right - left), std::max(0, bottom - top), {}}};
+  for (int i = 0; i < tile.image.width * tile.image.height; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      tile.image.rgb.push_back(static_cast<std::uint8_t>(std::lround(255 * color[k])));
+    }
+  }
+  return tile;
+}
+
+// A simulation that goes from frame to frame of a track.
+class Placed {
+ public:
+  Placed(const scenes::Scene& scene, const Track& track) : simulation_(scene), track_(track) {}
+
+  const scenes::Simulation& at(int frame) {
+    while (simulation_.frame() < frame) {
+      const TrackFrame& next = track_.frames.at(simulation_.frame() + 1);
+      if (!simulation_.place(next.poses, next.velocities)) {
+        throw CheckFailed(fmt::format("frame {}: a state that is not finite cannot be drawn",
+                                      simulation_.frame() + 1));
+      }
+    }
+    return simulation_;
+  }
+
+ private:
+  scenes::Simulation simulation_;
+  const Track& track_;
+};
+
+scenes::MotionBounds boundsOf(const SideBySide& sides, int frames) {
+  scenes::MotionBounds bounds;
+  if (!scenes::needsMotionBounds(sides.scene)) return bounds;
+  for (const Track* track : {sides.left, sides.right}) {
+    Placed placed(sides.scene, *track);
+    for (int f = 0; f < frames && !interrupted(); ++f) bounds.include(placed.at(f));
+  }
+  return bounds;
+}
+
+void markBody(const scenes::Simulation& simulation, physics::BodyId body,
+              render::Picture& picture) {
+  const render::Vec3f at = simulation.world().bodies().pose[body].x.cast<float>();
+  picture.dots.push_back({at, kMark, 12});
+  picture.labels.push_back({at, simulation.bodyName(body), {10, -10}, kMark, 22});
+}
+
+// Puts the pictures of both sides on pages, in order, while others are drawn.
+class SidePages {
+ public:
+  SidePages(const SideBySide& sides, const SideLayout& layout, const std::vector<int>& frames)
+      : sides_(sides), layout_(layout), frames_(frames) {}
+
+  void take(int job, const render::Image& image) {  // from any thread
+    const std::lock_guard lock(mutex_);
+    done_[job] = image;
+  }
+  // The pages whose sides are all drawn.
+  void print(const std::function<std::filesystem::path(int)>& file, Progress& progress) {
+    render::Page page;
+    while (next(page)) {
+      render::writePng(printer_.print(page), file(frames_[printed_++]));
+      progress.advance();
+    }
+  }
+
+ private:
+  bool next(render::Page& page) {
+    if (printed_ == frames_.size()) return false;
+    page = blank(frames_[printed_]);
+    const std::lock_guard lock(mutex_);
+    const int job = static_cast<int>(printed_) * kSides;
+    if (!done_.contains(job) || !done_.contains(job + 1)) return false;
+    for (int side = 0; side < kSides; ++side) {
+      page.tiles.push_back(
+          {layout_.leftOf(side), layout_.top, std::move(done_.extract(job + side).mapped())});
+    }
+    return true;
+  }
+
+  render::Page blank(int frame) const {
+    render::Page page;
+    page.width = layout_.width;
+    page.height = layout_.height;
+    addText(page, 14, 24, 20, 0, sides_.leftLabel, kInk);
+    const float right = static_cast<float>(layout_.leftOf(1)) / layout_.scale;
+    addText(page, right + 14, 24, 20, 0, sides_.rightLabel, kInk);
+    addBar(sides_.left->frames.at(frame).time, page);
+    const bool isApart = sides_.marked >= 0 && frame >= sides_.marked;
+    const float middle = 0.5f * static_cast<float>(layout_.width) / layout_.scale;
+    if (isApart) addText(page, middle, 710, 18, 0.5f, sides_.parting, kMark);
+    return page;
+  }
+
+  void addText(render::Page& page, float x, float y, float size, float anchor,
+               const std::string& words, const render::Color& color) const {
+    const float s = layout_.scale;
+    page.texts.push_back({{s * x, s * y}, words, s * size, anchor, color, false});
+  }
+
+  // Trusted, beyond, and where the film is.
+  void addBar(double time, render::Page& page) const {
+    const SideLayout& l = layout_;
+    const double end = sides_.end > 0 ? sides_.end : 1;
+    const int until = l.barAt(sides_.until / end), now = l.barAt(time / end);
+    page.tiles.push_back(filled(l.barLeft, l.barTop, until, l.barBottom, kTrusted));
+    page.tiles.push_back(filled(until, l.barTop, l.barRight, l.barBottom, kBeyond));
+    page.tiles.push_back(
+        filled(now - l.px(2), l.barTop - l.px(4), now + l.px(2), l.barBottom + l.px(4), kInk));
+    addText(page, 16, 710, 18, 0, fmt::format("t = {:.2f} s", time), kInk);
+    const float right = static_cast<float>(l.barRight) / l.scale;
+    addText(page, right, 710, 18, 1, sides_.endText, kInk);
+  }
+
+  const SideBySide& sides_;
+  const SideLayout& layout_;
+  const std::vector<int>& frames_;
+  render::PagePrinter printer_;
+  std::mutex mutex_;
+  std::map<int, render::Image> done_;  // by place of the frame times sides plus side
+  std::size_t printed_ = 0;
+};
+
+}  // namespace
+
+bool drawSideBySide(const SideBySide& sides, const SideDrawing& drawing,
+                    const std::vector<int>& frames,
+                    const std::function<std::filesystem::path(int)>& file) {
+  const SideLayout layout(drawing.renderer);
+  render::RendererOptions pane = drawing.renderer;
+  pane.width = layout.paneWidth;
+  pane.height = layout.paneHeight;
+  scenes::ViewOptions view;
+  view.overlays = sides.scene.overlays;
+  view.aspect = static_cast<double>(pane.width) / pane.height;
+  const scenes::MotionBounds bounds =
+      boundsOf(sides, std::min(sides.left->frameCount(), sides.right->frameCount()));
+  SidePages pages(sides, layout, frames);
+  Progress progress(drawing.progress, sides.scene.name, "drawing side by side",
+                    static_cast<int>(frames.size()));
+  Placed shown[] = {{sides.scene, *sides.left}, {sides.scene, *sides.right}};
+  Pipeline pipeline(pane, drawing.threads,
+                    [&](int job, const render::Image& image) { pages.take(job, image); });
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    if (interrupted()) return false;
+    for (int side = 0; side < kSides; ++side) {
+      const scenes::Simulation& simulation = shown[side].at(frames[f]);
+      render::Picture picture = scenes::view(simulation, bounds, view, {});
+      const bool isApart = sides.marked >= 0 && frames[f] >= sides.marked;
+      if (isApart && sides.body > 0) markBody(simulation, sides.body, picture);
+      pipeline.draw(static_cast<int>(f) * kSides + side, std::move(picture));
+    }
+    pages.print(file, progress);
+  }
+  pipeline.finish();
+  pages.print(file, progress);
+  progress.finish();
+  return !interrupted();
+}
+
+bool filmFrames(const std::filesystem::path& folder, const std::vector<int>& frames, int fps,
+                const std::filesystem::path& file) {
+  const int step = frames.size() > 1 ? frames[1] - frames[0] : 1;
+  render::FilmOptions film;
+  film.framesPerSecond = std::max(1, static_cast<int>(std::lround(1.0 * fps / step)));
+  try {
+    render::makeFilm(render::frameFiles(folder, frames.front(), frames.back(), step), file, film);
+  } catch (const render::FilmError& error) {
+    if (interrupted()) return false;
+    throw EnvironmentError(error.what());
+  }
+  return true;
+}
+
+}  // namespace app

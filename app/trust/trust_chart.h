@@ -1,0 +1,21 @@
+// Charts of a difference over time.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/trust/trust.h"
+#include "render/chart.h"
+#include "render/page.h"
+
+namespace app {
+
+// The largest distance of a body by what it is allowed, and that of the body that parts first, over
+// time; what is allowed is 1, and a line stands where trust ends.
+render::Chart trustChart(const Trust& trust);
+
+// A page with a title and charts one above the other, into a PNG.
+void writeCharts(const std::string& title, const std::vector<render::Chart>& charts,
+                 const std::filesystem::path& file);
+
+}  // namespace app
