@@ -50,6 +50,7 @@ ExitCode chooseAndRun(int argc, const char* const* argv) {
   addFigures(line, action);
   addStudy(line, action);
   addTrust(line, action);
+  addDiverge(line, action);
   addGolden(line, action);
   addCompare(line, action);
   addCheck(line, action);

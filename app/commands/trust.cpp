@@ -51,7 +51,7 @@ SideBySide sidesOf(const Trust& trust) {
   if (trust.isWhole()) return sides;
   sides.marked = trust.beyond;
   sides.body = trust.differences[trust.beyond].body;
-  sides.parting = partingText(trust);
+  sides.parting = "first apart: " + partingText(trust);
   return sides;
 }
 

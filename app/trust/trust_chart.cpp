@@ -54,6 +54,19 @@ render::Chart trustChart(const Trust& trust) {
   return chart;
 }
 
+render::Chart divergeChart(const std::vector<FrameDifference>& differences) {
+  render::Chart chart;
+  chart.x.title = "time [s]";
+  chart.y.title = "largest distance of a centre [m]";
+  chart.y.logarithmic = true;
+  chart.x.low = 0;
+  if (!differences.empty()) chart.x.high = std::max(differences.back().time, 1e-9);
+  render::ChartCurve curve{"", {}, kFirst};
+  for (const FrameDifference& d : differences) curve.points.push_back({d.time, d.distance});
+  chart.curves.push_back(std::move(curve));
+  return chart;
+}
+
 void writeCharts(const std::string& title, const std::vector<render::Chart>& charts,
                  const std::filesystem::path& file) {
   constexpr int kWidth = 1280, kHeight = 480, kTitle = 60;

@@ -14,6 +14,9 @@ namespace app {
 // time; what is allowed is 1, and a line stands where trust ends.
 render::Chart trustChart(const Trust& trust);
 
+// The largest distance of a centre [m] over time.
+render::Chart divergeChart(const std::vector<FrameDifference>& differences);
+
 // A page with a title and charts one above the other, into a PNG.
 void writeCharts(const std::string& title, const std::vector<render::Chart>& charts,
                  const std::filesystem::path& file);
