@@ -14,6 +14,7 @@ namespace {
 
 // All in pixels at 720 lines.
 constexpr float kHudMargin = 16, kHudPadding = 12, kWidth = 268;
+constexpr float kBarStep = 32, kBarHeight = 6;
 constexpr float kTitleSize = 17, kTitleStep = 26, kRowSize = 14, kRowStep = 20;
 constexpr float kPlotSize = 12, kPlotTitleStep = 18, kPlotHeight = 76, kPlotStep = 108,
                 kGutter = 34;
@@ -22,6 +23,7 @@ const Color kHudInk(0.13f, 0.14f, 0.16f, 1), kQuiet(0.42f, 0.43f, 0.46f, 1);
 const Color kPanel(1, 1, 1, 0.86f), kRim(0.80f, 0.81f, 0.83f, 1),
     kPlotPaper(0.985f, 0.985f, 0.99f, 1);
 const Color kPlotRule(0.90f, 0.90f, 0.92f, 1);
+const Color kHolds(0.20f, 0.63f, 0.38f, 1), kBeyond(0.93f, 0.80f, 0.78f, 1);
 
 bool shown(float value, bool logarithmic) {
   return std::isfinite(value) && (!logarithmic || value > 0);
@@ -110,6 +112,18 @@ void drawPlotTitle(const Pen& pen, const Plot& plot, float x, float y) {
   }
 }
 
+// A row, and under it a bar that changes its colour where what holds ends.
+void drawBar(const Pen& pen, const Bar& bar, float x, float y) {
+  const float right = x + kWidth - 2 * kHudPadding, top = y + kRowStep;
+  const auto at = [&](float share) { return x + std::clamp(share, 0.0f, 1.0f) * (right - x); };
+  pen.left(x, y + kRowSize - 2, kRowSize, kQuiet, bar.name);
+  pen.right(right, y + kRowSize - 2, kRowSize, kHudInk, bar.value);
+  pen.canvas().fill(pen.at(x, top), pen.at(right, top + kBarHeight), kBeyond);
+  pen.canvas().fill(pen.at(x, top), pen.at(at(bar.end), top + kBarHeight), kHolds);
+  pen.canvas().fill(pen.at(at(bar.now) - 1, top - 2), pen.at(at(bar.now) + 1, top + kBarHeight + 2),
+                    kHudInk);
+}
+
 void drawPlot(const Pen& pen, const Plot& plot, float x, float y) {
   drawPlotTitle(pen, plot, x, y + kPlotSize);
   const AxisRange range = axisRangeOf(plot);
@@ -159,9 +173,11 @@ AxisRange axisRangeOf(const Plot& plot) {
 void drawHud(Canvas& canvas, const Hud& hud, float scale) {
   const Pen pen(canvas, scale);
   const float rows = static_cast<float>(hud.rows.size());
+  const float bars = static_cast<float>(hud.bars.size());
   const float plots = static_cast<float>(hud.plots.size());
   const float title = hud.title.empty() ? 0 : kTitleStep;
-  const float height = 2 * kHudPadding + title + rows * kRowStep + plots * kPlotStep - 4;
+  const float height =
+      2 * kHudPadding + title + rows * kRowStep + bars * kBarStep + plots * kPlotStep - 4;
   const Pixel from = pen.at(kHudMargin, kHudMargin),
               to = pen.at(kHudMargin + kWidth, kHudMargin + height);
   canvas.fill(from, to, kPanel, 5 * scale);
@@ -174,6 +190,10 @@ void drawHud(Canvas& canvas, const Hud& hud, float scale) {
     pen.left(x, y + kRowSize - 2, kRowSize, kQuiet, name);
     pen.right(right, y + kRowSize - 2, kRowSize, kHudInk, value);
     y += kRowStep;
+  }
+  for (const Bar& bar : hud.bars) {
+    drawBar(pen, bar, x, y);
+    y += kBarStep;
   }
   for (const Plot& plot : hud.plots) {
     drawPlot(pen, plot, x, y);

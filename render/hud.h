@@ -1,4 +1,4 @@
-// The panel at the upper left: title, rows of names and values, running plots.
+// The panel at the upper left: title, rows of names and values, bars, running plots.
 #pragma once
 
 #include <string>

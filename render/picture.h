@@ -100,10 +100,16 @@ struct Plot {  // a running plot of the HUD
   bool logarithmic = false;
 };
 
+struct Bar {  // of the HUD: how much of a whole holds, and where it is now
+  std::string name, value;
+  float end = 1, now = 0;  // shares of the whole
+};
+
 struct Hud {
   bool visible = false;
   std::string title;
   std::vector<std::array<std::string, 2>> rows;  // name, value
+  std::vector<Bar> bars;
   std::vector<Plot> plots;
 };
 

@@ -66,7 +66,11 @@ class Hasher {
   void add(const Label& v) { addAll(v.at, v.text, v.offset, v.color, v.size, v.anchor); }
   void add(const Plot::Curve& v) { addAll(v.name, v.values, v.color); }
   void add(const Plot& v) { addAll(v.title, v.unit, v.curves, v.length, v.logarithmic); }
-  void add(const Hud& v) { addAll(v.visible, v.title, v.rows, v.plots); }
+  void add(const Bar& v) { addAll(v.name, v.value, v.end, v.now); }
+  void add(const Hud& v) {
+    addAll(v.visible, v.title, v.rows, v.plots);
+    if (!v.bars.empty()) add(v.bars);
+  }
   void add(const Picture& v) {
     addAll(v.camera, v.light, v.ground, v.instances, v.lines, v.dots, v.labels, v.hud, v.caption,
            v.background, v.focusCenter, v.focusRadius);

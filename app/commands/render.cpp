@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "app/base/console.h"
 #include "app/base/interrupt.h"
@@ -12,6 +13,7 @@
 #include "app/commands/picture_options.h"
 #include "app/run/frame_range.h"
 #include "app/run/render_run.h"
+#include "app/trust/trust_chart.h"
 #include "render/film.h"
 
 namespace app {
@@ -23,7 +25,7 @@ struct RenderOptions {
   PictureOptions picture;
   std::string frames = ":";
   std::vector<std::string> overlays;
-  bool video = false, hud = false, fresh = false, resume = false;
+  bool video = false, hud = false, trust = false, fresh = false, resume = false;
 };
 
 scenes::Overlays chooseOverlays(scenes::Overlays overlays, const std::vector<std::string>& words) {
@@ -116,15 +118,30 @@ std::string summary(const scenes::Scene& scene, const RenderJob& job, const Rend
 }
 
 ExitCode renderScene(const RenderOptions& options) {
-  const scenes::Scene scene = options.common.readScene();
-  const RenderJob job = makeJob(options, scene);
+  scenes::Scene scene = options.common.readScene();
+  RenderJob job = makeJob(options, scene);
   if (options.video) requireFfmpeg();
-  RenderResult result = renderFrames(scene, job);
+  std::optional<Trust> trust;
+  if (options.trust) {
+    const TrustPlan plan = planTrust(options.common.scene, options.common.overrides);
+    scene = plan.scene;  // at the accuracy that is judged
+    trust = measureTrust(plan, job.threads, job.progress);
+    job.view.hud = true;
+    job.view.trustedUntil = trust->until();
+  }
+  RenderResult result;
+  if (interrupted()) {
+    result.end.code = ExitCode::kInterrupted;
+  } else {
+    result = renderFrames(scene, job);
+  }
   if (result.end.code == ExitCode::kDone && options.video) makeVideo(scene, job, result);
   if (result.end.code == ExitCode::kInterrupted) {
     note("dbd: interrupted; the same command goes on where it stopped\n");
     return result.end.code;
   }
+  if (trust) writeTrust(*trust, job.folder);
+  if (trust && !options.common.quiet) say(trustText(*trust));
   if (!options.common.quiet) say(summary(scene, job, result));
   if (options.common.hash) {
     const std::vector<std::string>& hashes = result.record.stateHashes;
@@ -142,6 +159,9 @@ void addViewOptions(CLI::App& command, RenderOptions& options) {
       ->type_name("A:B:S");
   addPictureOptions(command, options.picture);
   command.add_flag("--hud", options.hud, "Show time, counts and running plots in the picture");
+  command.add_flag("--trust", options.trust,
+                   "Compare with a tenth of the accuracy first, as dbd trust does, and show in the "
+                   "HUD where the trust ends");
   command
       .add_option("--overlays", options.overlays,
                   "Draw contacts, impulses, joints, masses, arms, vectors (a list with commas)")

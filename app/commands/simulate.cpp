@@ -11,6 +11,7 @@
 #include "app/commands/commands.h"
 #include "app/run/play.h"
 #include "app/run/run_record.h"
+#include "app/trust/steps_chart.h"
 
 namespace app {
 
@@ -18,7 +19,7 @@ namespace {
 
 struct SimulateOptions {
   CommonOptions common;
-  std::string trajectory, metrics;
+  std::string trajectory, metrics, stepsChart;
 };
 
 // What a run leaves behind, in the order the frames come.
@@ -45,11 +46,16 @@ PlayEnd playAndRecord(scenes::Simulation& simulation, scenes::Checker& checker, 
 }
 
 // Frames that an earlier render left in the folder stay good when the states are the same.
-void writeRunRecord(RunRecord record, const Recording& recording, const PlayEnd& end,
-                    const scenes::Checker& checker, const std::filesystem::path& folder) {
+void writeRunRecord(const scenes::Scene& scene, RunRecord record, const Recording& recording,
+                    const PlayEnd& end, const scenes::Checker& checker,
+                    const std::filesystem::path& folder) {
   const std::optional<RunRecord> earlier = readRecord(folder);
   if (earlier && earlier->sameStates(record) && !earlier->picture.is_null()) record = *earlier;
   record.stateHashes = recording.hashes;
+  record.accuracy = Json();
+  for (const scenes::FrameMetrics& frame : recording.metrics) {
+    addAccuracy(scene, frame.accuracy, record.accuracy);
+  }
   if (record.picture.is_null()) {
     record.seconds = {{"simulate", recording.simulateSeconds}};
     record.finished = end.code == ExitCode::kDone;
@@ -93,6 +99,8 @@ ExitCode simulate(const SimulateOptions& options) {
   noteWarnings(record);
   scenes::Simulation simulation(scene);
   simulation.setThreads(options.common.threadCount());
+  std::optional<StepsChart> steps;
+  if (!options.stepsChart.empty()) steps.emplace(simulation);
   const std::filesystem::path folder = options.common.outputFolder(scene.name);
   makeFolder(folder);
   std::optional<OutputFile> trajectory, metrics;  // opened first: a long run must not end in vain
@@ -113,7 +121,8 @@ ExitCode simulate(const SimulateOptions& options) {
   if (metrics) metrics->write(metricsTable(recording.metrics, recording.seconds));
   if (trajectory) trajectory->commit();
   if (metrics) metrics->commit();
-  writeRunRecord(record, recording, end, checker, folder);
+  if (steps) steps->write(options.stepsChart);
+  writeRunRecord(scene, record, recording, end, checker, folder);
   tell(options, scene, recording);
   if (!end.problem.empty()) note("dbd: " + end.problem + "\n");
   return end.code;
@@ -133,6 +142,10 @@ void addSimulate(CLI::App& line, Action& action) {
       ->add_option("--metrics", options->metrics,
                    "Table of energies, momenta, errors and times per frame; - is standard output")
       ->type_name("F.csv");
+  command
+      ->add_option("--steps-chart", options->stepsChart,
+                   "Chart of the steps that islands take by the accuracy, over time")
+      ->type_name("F.png");
   addCommon(*command, options->common);
   addHash(*command, options->common);
   command->callback([options, &action] { action = [options] { return simulate(*options); }; });

@@ -26,16 +26,6 @@ struct TrustOptions {
   bool video = false, noFilm = false;
 };
 
-void writeTables(const Trust& trust, const std::filesystem::path& folder) {
-  constexpr int kIndent = 1;
-  writeFile(folder / "trust.json",
-            trustJson(trust).dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
-  writeFile(folder / "difference.csv", trustCsv(trust));
-  writeCharts(fmt::format("{}: accuracy {:g} beside {:g}", trust.plan.scene.name,
-                          trust.plan.accuracy, trust.plan.accuracy / 10),
-              {trustChart(trust)}, folder / "difference.png");
-}
-
 SideBySide sidesOf(const Trust& trust) {
   SideBySide sides;
   sides.scene = trust.plan.scene;
@@ -89,7 +79,7 @@ ExitCode measureAndShow(const TrustOptions& options) {
   const Trust trust =
       measureTrust(plan, options.common.threadCount(), options.common.progressMode());
   if (trust.code != ExitCode::kInterrupted) {
-    writeTables(trust, folder);
+    writeTrust(trust, folder);
     if (!options.common.quiet) say(trustText(trust));
     flushOutput();
   }

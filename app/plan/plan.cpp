@@ -72,6 +72,10 @@ void countBodies(const physics::Bodies& bodies, Plan& plan) {
 
 std::string howText(const scenes::Scene& scene) {
   const physics::Settings& s = scene.settings;
+  if (s.accuracy && s.method == physics::Method::kSmallSteps) {
+    return fmt::format("{}, {} fps, accuracy {:g}: steps and orders as each island's error allows",
+                       scenes::wordOf(s.method), scene.fps, *s.accuracy);
+  }
   return fmt::format("{}, {}, {} fps, {} substep{}, {} iteration{}", scenes::wordOf(s.method),
                      scenes::wordOf(s.stepping), scene.fps, s.substeps, s.substeps == 1 ? "" : "s",
                      s.iterations, s.iterations == 1 ? "" : "s");

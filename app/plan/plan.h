@@ -22,7 +22,8 @@ struct PlannedEffect {
 // Islands that the default method does the same with.
 struct PlannedIslands {
   int count = 0;
-  physics::IslandPlan plan;  // of the first of them
+  physics::IslandPlan plan;                   // of the first of them
+  std::optional<physics::IslandSteps> steps;  // the same, where it steps by an accuracy
 };
 
 struct Plan {
@@ -55,8 +56,9 @@ std::string planText(const Plan& plan);     // at most 100 columns
 //   effects [{name, part, on, left_out, why, count, unit, rows, bytes, share, within, without,
 //             stays}] in a fixed order; share is null where it is not measured by itself
 //   islands [{count, first, bodies, flies, trees, loops, joints, ropes, meshes, links, contacts,
-//             soft_contacts, substeps, sweeps, asked_by, halves}]:
-//             physics/small_steps/island_plan.h;
+//             soft_contacts, substeps, sweeps, asked_by, halves, accuracy {size, tolerance, steps,
+//             rejected, order, shortest_step, error_estimate}}]: physics/small_steps/island_plan.h;
+//   accuracy is null where it does not step by one;
 //   empty: of other methods
 //   rest {share}: what is no effect's; all shares sum to 1
 Json islandsJson(const Plan& plan);  // part of:

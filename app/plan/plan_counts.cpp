@@ -47,21 +47,41 @@ std::string effectOf(const std::string& held) {
 }
 
 // All but which bodies.
-auto sameOf(const physics::IslandPlan& p) {
+auto sameOf(const PlannedIslands& island) {
+  const physics::IslandPlan& p = island.plan;
+  const physics::AccuracyReport steps =
+      island.steps ? island.steps->steps : physics::AccuracyReport{};
   return std::tuple(p.bodies, p.flies, p.trees, p.loops, p.joints, p.ropes, p.meshes, p.links,
-                    p.contacts, p.softContacts, p.substeps, p.sweeps, p.law, p.halves);
+                    p.contacts, p.softContacts, p.substeps, p.sweeps, p.law, p.halves,
+                    steps.accepted, steps.order);
 }
 
-using Islands = std::map<physics::BodyId, physics::IslandPlan>;
+using Islands = std::map<physics::BodyId, PlannedIslands>;
+
+// An island that goes in halves tells of both.
+void add(const physics::IslandSteps& half, std::optional<physics::IslandSteps>& all) {
+  if (!all) {
+    all = half;
+    return;
+  }
+  physics::AccuracyReport& sum = all->steps;
+  const physics::AccuracyReport& steps = half.steps;
+  all->time += half.time;
+  sum.accepted += steps.accepted;
+  sum.rejected += steps.rejected;
+  sum.order = std::max(sum.order, steps.order);
+  sum.least = std::min(sum.least, steps.least);
+  sum.estimate += steps.estimate;
+}
 
 std::vector<PlannedIslands> grouped(const Islands& islands) {
   std::vector<PlannedIslands> groups;
-  for (const auto& [first, plan] : islands) {
+  for (const auto& [first, island] : islands) {
     const auto found = std::find_if(groups.begin(), groups.end(), [&](const PlannedIslands& group) {
-      return sameOf(group.plan) == sameOf(plan);
+      return sameOf(group) == sameOf(island);
     });
     if (found == groups.end()) {
-      groups.push_back({1, plan});
+      groups.push_back({1, island.plan, island.steps});
     } else {
       ++found->count;
     }
@@ -78,7 +98,9 @@ void countWork(const scenes::Scene& scene, Plan& plan) {
   scenes::Simulation simulation(scene);
   Islands islands;
   const physics::IslandListening listening(
-      [&](const physics::IslandPlan& plan) { islands[plan.first] = plan; });
+      [&](const physics::IslandPlan& plan) { islands[plan.first].plan = plan; });
+  const physics::StepListening accurate(
+      [&](const physics::IslandSteps& told) { add(told, islands[told.first].steps); });
   simulation.advance();
   physics::StepWork sum;
   std::int64_t kept = 0;

@@ -1,6 +1,7 @@
 // What a plan says of islands: a line for those that are alike.
 #include <fmt/format.h>
 
+#include "app/base/length_text.h"
 #include "app/plan/plan.h"
 
 namespace app {
@@ -36,8 +37,24 @@ std::string many(int count, const std::string& one, const std::string& more) {
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-std::string lineOf(const IslandPlan& p) {
-  if (p.flies) return "1 body, flies exactly, in one go";
+std::string accuracyText(const physics::IslandSteps& of) {
+  const physics::AccuracyReport& steps = of.steps;
+  std::string text = many(steps.accepted, "step", "steps");
+  if (steps.rejected > 0) text += fmt::format(" and {} rejected", steps.rejected);
+  if (steps.order > 0) text += fmt::format(", order {}", steps.order);
+  return text + fmt::format(", each to {:.2g} of {}", of.tolerance, lengthText(of.size));
+}
+
+// What an island of which the plan tells that nothing touches it steps by: an accuracy.
+std::string freeLine(const PlannedIslands& island) {
+  if (!island.steps) return "1 body, flies exactly, in one go";
+  return fmt::format("{}; {}", many(island.plan.bodies, "body", "bodies"),
+                     accuracyText(*island.steps));
+}
+
+std::string lineOf(const PlannedIslands& island) {
+  const IslandPlan& p = island.plan;
+  if (p.flies) return freeLine(island);
   std::string text = many(p.bodies, "body", "bodies");
   const auto add = [&](const std::string& part) { text += ", " + part; };
   if (p.trees > 0) add(many(p.trees, "tree", "trees"));
@@ -47,9 +64,20 @@ std::string lineOf(const IslandPlan& p) {
   if (p.meshes > 0) add(many(p.meshes, "mesh swept", "meshes swept"));
   if (p.contacts > 0) add(many(p.contacts, "contact", "contacts"));
   if (p.softContacts > 0) add(fmt::format("{} of points", p.softContacts));
+  if (island.steps) return text + "; " + accuracyText(*island.steps);
   text += fmt::format("; {}{}", many(p.substeps, "substep", "substeps"), wordsOf(p.law).text);
   text += fmt::format(", {}", many(p.sweeps, "sweep", "sweeps"));
   return p.halves ? text + ", two looks" : text;
+}
+
+Json accuracyJson(const physics::IslandSteps& of) {
+  return {{"size", of.size},
+          {"tolerance", of.tolerance},
+          {"steps", of.steps.accepted},
+          {"rejected", of.steps.rejected},
+          {"order", of.steps.order},
+          {"shortest_step", of.steps.least},
+          {"error_estimate", of.steps.estimate}};
 }
 
 }  // namespace
@@ -63,7 +91,7 @@ std::string islandsText(const Plan& plan) {
   std::size_t lines = 0;
   for (const PlannedIslands& group : plan.islands) {
     if (lines++ == kMostLines) break;
-    std::string line = fmt::format("{:>4} x {}", group.count, lineOf(group.plan));
+    std::string line = fmt::format("{:>4} x {}", group.count, lineOf(group));
     if (line.size() > kLongest) line = line.substr(0, kLongest - 3) + "...";
     text += line + "\n";
     islands -= group.count;
@@ -78,7 +106,7 @@ Json islandsJson(const Plan& plan) {
     all.push_back({{"count", group.count},
                    {"first", p.first},
                    {"bodies", p.bodies},
-                   {"flies", p.flies},
+                   {"flies", p.flies && !group.steps},
                    {"trees", p.trees},
                    {"loops", p.loops},
                    {"joints", p.joints},
@@ -90,7 +118,8 @@ Json islandsJson(const Plan& plan) {
                    {"substeps", p.substeps},
                    {"sweeps", p.sweeps},
                    {"asked_by", wordsOf(p.law).word},
-                   {"halves", p.halves}});
+                   {"halves", p.halves},
+                   {"accuracy", group.steps ? accuracyJson(*group.steps) : Json()}});
   }
   return all;
 }

@@ -17,7 +17,8 @@ constexpr Known kKnown[] = {{"program.hash", "the program's hash"},
                             {"picture.height", "--size, height"},
                             {"picture.quality", "--quality"},
                             {"picture.hud", "--hud"},
-                            {"picture.overlays", "--overlays"}};
+                            {"picture.overlays", "--overlays"},
+                            {"picture.trusted_until", "--trust, until"}};
 // What the scene's text and --set say already.
 constexpr const char* kFollows[] = {"scene.title", "scene.description", "scene.effects"};
 

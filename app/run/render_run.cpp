@@ -85,6 +85,10 @@ class Drawing {
     const bool whole = result.end.frames == simulation_.scene().frameCount();
     if (whole) result.record.expectations = describeVerdicts(checker_.verdicts());
     result.record.finished = result.end.code == ExitCode::kDone;
+    result.record.accuracy = Json();
+    for (const scenes::FrameMetrics& frame : history_) {
+      addAccuracy(simulation_.scene(), frame.accuracy, result.record.accuracy);
+    }
     addSeconds(result.record);
   }
 
@@ -100,7 +104,8 @@ class Drawing {
   void visit(double stepSeconds, RenderResult& result) {
     simulateSeconds_ += stepSeconds;
     checker_.observe(simulation_);
-    if (job_.view.hud) history_.push_back(simulation_.metrics());
+    const bool isAccurate = simulation_.scene().settings.accuracy.has_value();
+    if (job_.view.hud || isAccurate) history_.push_back(simulation_.metrics());
     const int frame = simulation_.frame();
     const bool same = agreesWithRecord(frame, result.record);
     const bool wanted = std::binary_search(job_.frames.begin(), job_.frames.end(), frame);
@@ -169,6 +174,7 @@ RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job) {
   noteWarnings(result.record);
   result.record.picture =
       describePicture(job.renderer, rendererInfo(), job.view.hud, job.view.overlays);
+  if (job.view.trustedUntil) result.record.picture["trusted_until"] = *job.view.trustedUntil;
   const FrameFolder frames(job.folder);
   openFolder(frames, job, result);
   if (isComplete(frames, job, result.record)) {

@@ -104,6 +104,21 @@ Json describePicture(const render::RendererOptions& options, const render::Rende
            {{"vendor", info.vendor}, {"renderer", info.renderer}, {"version", info.version}}}};
 }
 
+void addAccuracy(const scenes::Scene& scene, const physics::AccuracyReport& frame, Json& accuracy) {
+  if (!scene.settings.accuracy) return;
+  const auto sum = [&](const char* key, auto more) {
+    accuracy[key] = accuracy.value(key, decltype(more){}) + more;
+  };
+  accuracy["asked"] = *scene.settings.accuracy;
+  sum("accepted_steps", frame.accepted);
+  sum("rejected_steps", frame.rejected);
+  accuracy["order"] = std::max(accuracy.value("order", 0), frame.order);
+  const double least = accuracy.value("shortest_step", 0.0);
+  accuracy["shortest_step"] =
+      least > 0 && frame.least > 0 ? std::min(least, frame.least) : least + frame.least;
+  sum("error_estimate", frame.estimate);
+}
+
 Json describeVerdicts(const std::vector<scenes::Checker::Verdict>& verdicts) {
   Json json = Json::array();
   for (const scenes::Checker::Verdict& verdict : verdicts) {
@@ -135,6 +150,7 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
     record.expectations = json.at("expectations");
     record.seconds = json.at("seconds");
     record.video = json.at("video");
+    record.accuracy = json.value("accuracy", record.accuracy);
     record.warnings = json.value("warnings", record.warnings);
     record.finished = json.at("finished").get<bool>();
     return record;
@@ -144,15 +160,11 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
 }
 
 void writeRecord(const RunRecord& record, const std::filesystem::path& folder) {
-  const Json json = {{"program", record.program},
-                     {"scene", record.scene},
-                     {"settings", record.settings},
-                     {"picture", record.picture},
-                     {"finished", record.finished},
-                     {"warnings", record.warnings},
-                     {"video", record.video},
-                     {"seconds", record.seconds},
-                     {"expectations", record.expectations},
+  const Json json = {{"program", record.program},         {"scene", record.scene},
+                     {"settings", record.settings},       {"picture", record.picture},
+                     {"finished", record.finished},       {"warnings", record.warnings},
+                     {"accuracy", record.accuracy},       {"video", record.video},
+                     {"seconds", record.seconds},         {"expectations", record.expectations},
                      {"state_hashes", record.stateHashes}};
   constexpr int kIndent = 1;
   writeFile(folder / kFile, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");

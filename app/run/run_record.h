@@ -21,6 +21,7 @@ struct RunRecord {
   std::vector<std::string> stateHashes;  // per frame; empty text: not known
   Json expectations = Json::array();     // verdicts, once the whole run was simulated
   Json seconds = Json::object();         // per stage; runs of the same inputs add up
+  Json accuracy;                         // how it was kept, where one is asked for; else null
   Json video;                            // the film and its frames; null: none
   std::vector<std::string> warnings;     // scenes/measure/start_warnings.h
   bool finished = false;                 // all that was asked for is written
@@ -34,6 +35,9 @@ RunRecord makeRecord(const scenes::Scene& scene);
 void noteWarnings(const RunRecord& record);  // on stderr
 Json describePicture(const render::RendererOptions& options, const render::Renderer::Info& info,
                      bool hud, const scenes::Overlays& overlays);
+// Of a frame, onto RunRecord::accuracy: asked, accepted_steps, rejected_steps, order (the highest),
+// shortest_step [s], error_estimate (their sum: errors add up).
+void addAccuracy(const scenes::Scene& scene, const physics::AccuracyReport& frame, Json& accuracy);
 Json describeVerdicts(const std::vector<scenes::Checker::Verdict>& verdicts);
 // "--size, width: 640 -> 1280": what sameFrames() goes by.
 std::vector<std::string> differencesOf(const RunRecord& was, const RunRecord& is);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/base/output_file.h"
 #include "render/png.h"
 
 namespace app {
@@ -81,6 +82,16 @@ void writeCharts(const std::string& title, const std::vector<render::Chart>& cha
     top += kHeight;
   }
   render::writePng(render::PagePrinter().print(page), file);
+}
+
+void writeTrust(const Trust& trust, const std::filesystem::path& folder) {
+  constexpr int kIndent = 1;
+  writeFile(folder / "trust.json",
+            trustJson(trust).dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFile(folder / "difference.csv", trustCsv(trust));
+  writeCharts(fmt::format("{}: accuracy {:g} beside {:g}", trust.plan.scene.name,
+                          trust.plan.accuracy, trust.plan.accuracy / 10),
+              {trustChart(trust)}, folder / "difference.png");
 }
 
 }  // namespace app

@@ -1,4 +1,4 @@
-// Charts of a difference over time.
+// Charts of a difference over time, and the files they are among.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +16,9 @@ render::Chart trustChart(const Trust& trust);
 
 // The largest distance of a centre [m] over time.
 render::Chart divergeChart(const std::vector<FrameDifference>& differences);
+
+// trust.json, difference.csv and difference.png.
+void writeTrust(const Trust& trust, const std::filesystem::path& folder);
 
 // A page with a title and charts one above the other, into a PNG.
 void writeCharts(const std::string& title, const std::vector<render::Chart>& charts,

@@ -46,7 +46,7 @@ std::string happeningText(const Trust& trust, const TrustEvent& event) {
 std::string finerText(const TrustPlan& plan) {
   std::string text = fmt::format("accuracy {:g}", plan.accuracy / 10);
   if (plan.every > 1) {
-    text += fmt::format(" and {} fps, as {} step by none", plan.finer.fps, plan.why);
+    text += fmt::format(" and {} fps (no accuracy steps {})", plan.finer.fps, plan.why);
   }
   return text;
 }
@@ -126,6 +126,7 @@ std::string trustText(const Trust& trust) {
         [](const auto& one, const auto& other) { return one.ratio() < other.ratio(); });
     text += fmt::format("trusted to the end, t = {:.2f} s\n", last);
     if (worst->body == 0) return text + "nothing in it can move\n";
+    if (!(worst->distance > 0)) return text + "the two are the same to the last bit\n";
     return text + fmt::format("furthest apart: body '{}' at t = {:.3f} s, {} of {} allowed\n",
                               nameOf(trust, worst->body), worst->time, lengthText(worst->distance),
                               lengthText(worst->allowed));

@@ -1,6 +1,7 @@
 // Islands that step by an accuracy and touch nothing.
 #include <algorithm>
 
+#include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
@@ -64,12 +65,16 @@ bool SmallSteps::Impl::advanceAccurately(Model& w, BodyId root, double dt, Accur
                              {trialNow, trialStart, trialEnd}, of)) {
     return false;
   }
+  int moving = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!island.motion.step().moves(i)) continue;
+    ++moving;
     b.start[bodies[i]] = b.pose[bodies[i]];
     b.pose[bodies[i]] = island.state.pose[i];
     b.velocity[bodies[i]] = island.state.velocity[i];
   }
+  StepListening::tell(
+      {root, moving, dt, island.motion.step().size(), kShareOfStep * *w.settings.accuracy, of});
   add(of, report);
   return true;
 }

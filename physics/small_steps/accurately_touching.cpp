@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
@@ -172,6 +173,8 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
     told.estimate += trial.error;
     left = whole == left ? 0 : left - whole;
   }
+  StepListening::tell({batch.bodies.front(), static_cast<int>(batch.bodies.size()), dt,
+                       trial.extent, trial.allowed, told});
   add(told, report.accuracy);
   if (told.accepted > 0) {
     ask(w, batch, dt / count);

@@ -2,22 +2,10 @@
 #include "physics/small_steps/island_plan.h"
 
 #include <map>
-#include <utility>
 
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
-namespace {
-
-thread_local const IslandListening::Listener* listening = nullptr;
-
-}  // namespace
-
-IslandListening::IslandListening(Listener listener)
-    : listener_(std::move(listener)), before_(std::exchange(listening, &listener_)) {}
-IslandListening::~IslandListening() { listening = before_; }
-const IslandListening::Listener* IslandListening::present() { return listening; }
-
 void SmallSteps::Impl::countParts(const Batch& batch, std::map<BodyId, IslandPlan>& plans) const {
   for (const int k : batch.articulations) {
     IslandPlan& plan = plans[islands[articulations[k].bodies().front()]];
@@ -33,8 +21,7 @@ void SmallSteps::Impl::countParts(const Batch& batch, std::map<BodyId, IslandPla
 
 // After divide: those that step now, `parts` of them to a step.
 void SmallSteps::Impl::tell(const Model& w, int parts) const {
-  const IslandListening::Listener* listener = IslandListening::present();
-  if (listener == nullptr) return;
+  if (!IslandListening::isHeard()) return;
   std::map<BodyId, IslandPlan> plans;
   for (const BodyId i : stepping) {
     IslandPlan& plan = plans[islands[i]];
@@ -56,7 +43,7 @@ void SmallSteps::Impl::tell(const Model& w, int parts) const {
       ++plans[islands[softMoverOf(w, pair)]].softContacts;
     }
   }
-  for (const auto& [root, plan] : plans) (*listener)(plan);
+  for (const auto& [root, plan] : plans) IslandListening::tell(plan);
 }
 
 }  // namespace physics

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include "physics/base/types.h"
+#include "physics/model/report.h"
 
 namespace physics {
 
@@ -28,19 +30,38 @@ struct IslandPlan {
   bool halves = false;  // fast: it looks for contacts twice a step
 };
 
+// How an island came through its step by an accuracy.
+struct IslandSteps {
+  BodyId first = 0;      // of its bodies
+  int bodies = 0;        // that move
+  double time = 0;       // that it advanced by [s]
+  double size = 0;       // that the accuracy is relative to [m]
+  double tolerance = 0;  // one of its steps may err by this part of the size
+  AccuracyReport steps;
+};
+
 // What steps on this thread tell while it lives: every island, twice where it goes in halves.
-class IslandListening {
+template <class Told>
+class IslandsHeard {
  public:
-  using Listener = std::function<void(const IslandPlan&)>;
-  explicit IslandListening(Listener listener);
-  ~IslandListening();
-  IslandListening(const IslandListening&) = delete;
-  IslandListening& operator=(const IslandListening&) = delete;
-  static const Listener* present();  // null: nobody listens
+  using Listener = std::function<void(const Told&)>;
+  explicit IslandsHeard(Listener listener)
+      : listener_(std::move(listener)), before_(std::exchange(present_, &listener_)) {}
+  ~IslandsHeard() { present_ = before_; }
+  IslandsHeard(const IslandsHeard&) = delete;
+  IslandsHeard& operator=(const IslandsHeard&) = delete;
+
+  static bool isHeard() { return present_ != nullptr; }
+  static void tell(const Told& told) {
+    if (present_ != nullptr) (*present_)(told);
+  }
 
  private:
+  static inline thread_local const Listener* present_ = nullptr;
   Listener listener_;
   const Listener* before_;
 };
+using IslandListening = IslandsHeard<IslandPlan>;
+using StepListening = IslandsHeard<IslandSteps>;
 
 }  // namespace physics

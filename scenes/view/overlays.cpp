@@ -110,6 +110,18 @@ render::Plot residualPlot(const std::vector<FrameMetrics>& history, int length) 
   return plot;
 }
 
+// What steps by an accuracy told in this frame, and the sum of its estimates so far.
+void addAccuracyRows(const std::vector<FrameMetrics>& history, double accuracy, render::Hud& hud) {
+  double estimate = 0;
+  for (const FrameMetrics& frame : history) estimate += frame.accuracy.estimate;
+  const physics::AccuracyReport now =
+      history.empty() ? physics::AccuracyReport{} : history.back().accuracy;
+  hud.rows.push_back({"accuracy", fmt::format("{:g}", accuracy)});
+  hud.rows.push_back({"steps", fmt::format("{} taken, {} rejected", now.accepted, now.rejected)});
+  hud.rows.push_back({"shortest", fmt::format("{:.3g} ms, order {}", 1e3 * now.least, now.order)});
+  hud.rows.push_back({"estimated error", fmt::format("{:.2g} so far", estimate)});
+}
+
 }  // namespace
 
 void drawOverlays(const Simulation& simulation, const ViewOptions& options, double scale,
@@ -129,6 +141,16 @@ void drawOverlays(const Simulation& simulation, const ViewOptions& options, doub
   if (overlays.vectors) drawVectors(simulation, scale, options, picture);
 }
 
+void addTrust(const Simulation& simulation, double until, render::Hud& hud) {
+  const Scene& scene = simulation.scene();
+  const double end = static_cast<double>(scene.frameCount() - 1) / scene.fps;
+  const double time = static_cast<double>(simulation.frame()) / scene.fps;
+  const float whole = end > 0 ? static_cast<float>(end) : 1;
+  const std::string value = until < end ? fmt::format("until {:.2f} s", until) : "to the end";
+  hud.bars.push_back(
+      {"trusted", value, static_cast<float>(until) / whole, static_cast<float>(time) / whole});
+}
+
 render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics>& history) {
   const Scene& scene = simulation.scene();
   const physics::Settings& settings = scene.settings;
@@ -137,8 +159,12 @@ render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics
   hud.title = scene.title;
   const double time = static_cast<double>(simulation.frame()) / scene.fps;
   hud.rows.push_back({"time", fmt::format("{:.3f} s", time)});
-  hud.rows.push_back({"step", fmt::format("1/{} s, {} substeps", scene.fps, settings.substeps)});
-  hud.rows.push_back({"iterations", fmt::format("{} per substep", settings.iterations)});
+  if (settings.accuracy) {
+    addAccuracyRows(history, *settings.accuracy, hud);
+  } else {
+    hud.rows.push_back({"step", fmt::format("1/{} s, {} substeps", scene.fps, settings.substeps)});
+    hud.rows.push_back({"iterations", fmt::format("{} per substep", settings.iterations)});
+  }
   const auto& motion = simulation.world().bodies().motion;
   const auto moving = std::count_if(motion.begin(), motion.end(), [](physics::Motion m) {
     return m != physics::Motion::kStatic;

@@ -12,6 +12,9 @@ namespace scenes {
 void drawOverlays(const Simulation& simulation, const ViewOptions& options, double scale,
                   render::Picture& picture);
 
+// A bar of the whole run that ends where it is no longer trusted [s].
+void addTrust(const Simulation& simulation, double until, render::Hud& hud);
+
 render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics>& history);
 
 }  // namespace scenes

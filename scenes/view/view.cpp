@@ -249,6 +249,7 @@ render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
   }
   drawOverlays(simulation, options, picture.focusRadius, picture);
   if (options.hud) picture.hud = makeHud(simulation, history);
+  if (options.hud && options.trustedUntil) addTrust(simulation, *options.trustedUntil, picture.hud);
   return picture;
 }
 

@@ -20,6 +20,7 @@ bool needsMotionBounds(const Scene& scene);
 
 struct ViewOptions {
   bool hud = false;
+  std::optional<double> trustedUntil;  // s: the HUD has a bar of the run that ends there
   Overlays overlays;
   double aspect = 16.0 / 9;
   std::optional<CameraDef> camera;  // absent: the scene's

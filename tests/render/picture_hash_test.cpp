@@ -93,6 +93,15 @@ TEST(PictureHash, ChangesWithEveryField) {
       [](Picture& p) { p.hud.title += "a"; },
       [](Picture& p) { p.hud.rows[0][0] += "a"; },
       [](Picture& p) { p.hud.rows[0][1] += "a"; },
+      [](Picture& p) {
+        p.hud.bars.push_back({"", "", 0.5f, 0.2f});
+      },
+      [](Picture& p) {
+        p.hud.bars.push_back({"", "", 0.4f, 0.2f});
+      },
+      [](Picture& p) {
+        p.hud.bars.push_back({"", "", 0.5f, 0.3f});
+      },
       [](Picture& p) { p.hud.plots[0].title += "a"; },
       [](Picture& p) { p.hud.plots[0].unit += "a"; },
       [](Picture& p) { p.hud.plots[0].length += 1; },

@@ -1,0 +1,45 @@
+// The steps that islands choose by the accuracy, over time.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "physics/small_steps/island_plan.h"
+#include "render/chart.h"
+#include "scenes/simulation.h"
+
+namespace app {
+
+// Listens to the steps that this thread makes of a simulation, as long as it lives.
+class StepsChart {
+ public:
+  // Throws InputError where the scene asks for no accuracy.
+  explicit StepsChart(const scenes::Simulation& simulation);
+  StepsChart(const StepsChart&) = delete;
+
+  // An island by an island where they are few, else the shortest and the longest; below, how many
+  // steps all together took, and how many were rejected.
+  void write(const std::filesystem::path& file) const;
+
+ private:
+  struct Told {       // in one frame
+    double time = 0;  // that it advanced by [s]
+    int accepted = 0, rejected = 0;
+    double mean() const { return time / accepted; }
+  };
+  using Frames = std::map<int, Told>;
+
+  void take(const physics::IslandSteps& told);
+  double timeOf(int frame) const;
+  void addIslands(render::Chart& chart) const;
+  void addEnds(render::Chart& chart) const;
+  render::Chart steps() const;
+  render::Chart counts() const;
+
+  const scenes::Simulation& simulation_;
+  std::map<physics::BodyId, Frames> islands_;  // by their first body
+  physics::StepListening listening_;
+};
+
+}  // namespace app
