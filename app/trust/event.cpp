@@ -33,7 +33,7 @@ bool joltsAt(const Track& track, int frame, BodyId body, double radius) {
   constexpr double kJump = 4;
   const double around = std::max(velocityChange(track, frame - 1, body, radius),
                                  velocityChange(track, frame + 1, body, radius));
-  return around > 0 && velocityChange(track, frame, body, radius) > kJump * around;
+  return velocityChange(track, frame, body, radius) > kJump * around;
 }
 
 class EventSearch {

@@ -40,7 +40,7 @@ TEST_F(Diverge, NamesTheFrameTheBodyAndTheQuantity) {
   std::string text;
   for (std::string& row : rows) {
     std::vector<std::string> fields = cells(row);
-    if (fields[0] == "7" && fields[2] == "ball") fields[11] = "0.125";  // vz
+    if (fields[0] == "7" && fields[2] == "ball") fields[12] = "0.125";  // vz
     std::string joined;
     for (const std::string& field : fields) joined += (joined.empty() ? "" : ",") + field;
     text += joined + "\n";
