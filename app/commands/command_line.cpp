@@ -51,6 +51,7 @@ ExitCode chooseAndRun(int argc, const char* const* argv) {
   addStudy(line, action);
   addTrust(line, action);
   addDiverge(line, action);
+  addRace(line, action);
   addGolden(line, action);
   addCompare(line, action);
   addCheck(line, action);

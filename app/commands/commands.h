@@ -10,6 +10,7 @@ void addList(CLI::App& line, Action& action);
 void addPlan(CLI::App& line, Action& action);
 void addSimulate(CLI::App& line, Action& action);
 void addRender(CLI::App& line, Action& action);
+void addRace(CLI::App& line, Action& action);
 void addGolden(CLI::App& line, Action& action);
 void addCompare(CLI::App& line, Action& action);
 void addCheck(CLI::App& line, Action& action);

@@ -16,24 +16,6 @@ namespace {
 
 constexpr int kLeastSide = 16, kMostSide = 8192;  // pixels
 
-void parseSize(const std::string& text, render::RendererOptions& options) {
-  const std::size_t cross = text.find('x');
-  const auto parse = [&text](const char* begin, const char* end) {
-    int side = 0;
-    const auto [stop, error] = std::from_chars(begin, end, side);
-    if (error != std::errc() || stop != end || side < kLeastSide || side > kMostSide) {
-      throw scenes::InputError(fmt::format(
-          "--size {}: expected WxH, each from {} to {}, as 1280x720", text, kLeastSide, kMostSide));
-    }
-    return side;
-  };
-  const char* const begin = text.data();
-  const char* const end = begin + text.size();
-  const char* const middle = cross == std::string::npos ? end : begin + cross;
-  options.width = parse(begin, middle);
-  options.height = parse(middle == end ? end : middle + 1, end);
-}
-
 render::RendererOptions ofQuality(const std::string& name) {
   switch (parseQuality(name)) {
     case render::Quality::kDraft:
@@ -48,9 +30,30 @@ render::RendererOptions ofQuality(const std::string& name) {
 
 }  // namespace
 
+PictureSize parseSize(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  const auto parse = [&text](const char* begin, const char* end) {
+    int side = 0;
+    const auto [stop, error] = std::from_chars(begin, end, side);
+    if (error != std::errc() || stop != end || side < kLeastSide || side > kMostSide) {
+      throw scenes::InputError(fmt::format(
+          "--size {}: expected WxH, each from {} to {}, as 1280x720", text, kLeastSide, kMostSide));
+    }
+    return side;
+  };
+  const char* const begin = text.data();
+  const char* const end = begin + text.size();
+  const char* const middle = cross == std::string::npos ? end : begin + cross;
+  return {parse(begin, middle), parse(middle == end ? end : middle + 1, end)};
+}
+
 render::RendererOptions PictureOptions::renderer() const {
   render::RendererOptions options = ofQuality(quality);
-  if (!size.empty()) parseSize(size, options);
+  if (!size.empty()) {
+    const PictureSize asked = parseSize(size);
+    options.width = asked.width;
+    options.height = asked.height;
+  }
   return options;
 }
 
@@ -61,10 +64,10 @@ void addPictureOptions(CLI::App& command, PictureOptions& options) {
       ->type_name("draft|standard|paper");
 }
 
-void requireFfmpeg() {
+void requireFfmpeg(const std::string& option) {
   if (!render::ffmpegVersion().empty()) return;
-  throw EnvironmentError(
-      "--video: cannot run ffmpeg; install it with: sudo apt-get install -y ffmpeg");
+  throw EnvironmentError(option +
+                         ": cannot run ffmpeg; install it with: sudo apt-get install -y ffmpeg");
 }
 
 }  // namespace app

@@ -19,6 +19,13 @@ struct PictureOptions {
 };
 
 void addPictureOptions(CLI::App& command, PictureOptions& options);
-void requireFfmpeg();  // throws EnvironmentError where --video finds none
+
+struct PictureSize {
+  int width = 0, height = 0;  // px
+};
+PictureSize parseSize(const std::string& text);  // "1280x720"; throws InputError that names --size
+
+// Throws EnvironmentError where there is no ffmpeg for what `option` asks for.
+void requireFfmpeg(const std::string& option);
 
 }  // namespace app

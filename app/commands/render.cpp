@@ -120,7 +120,7 @@ std::string summary(const scenes::Scene& scene, const RenderJob& job, const Rend
 ExitCode renderScene(const RenderOptions& options) {
   scenes::Scene scene = options.common.readScene();
   RenderJob job = makeJob(options, scene);
-  if (options.video) requireFfmpeg();
+  if (options.video) requireFfmpeg("--video");
   std::optional<Trust> trust;
   if (options.trust) {
     const TrustPlan plan = planTrust(options.common.scene, options.common.overrides);

@@ -73,7 +73,7 @@ ExitCode measureAndShow(const TrustOptions& options) {
   const TrustPlan plan = planTrust(options.common.scene, options.common.overrides);
   options.picture.renderer();                                // a wrong word is told before the runs
   parseFrameRange(options.frames, plan.scene.frameCount());  // and so is a wrong range
-  if (options.video) requireFfmpeg();
+  if (options.video) requireFfmpeg("--video");
   const std::filesystem::path folder = options.common.outputFolder("trust_" + plan.scene.name);
   makeFolder(folder);
   const Trust trust =

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "physics/base/rotation.h"
+
 namespace app {
 namespace {
 
@@ -25,6 +27,7 @@ struct Parts {
   Vec3 along = Vec3::Zero();                 // the line, in the first body's frame
   bool locked = false;
   std::optional<physics::TwistLimit> twist;
+  std::optional<physics::ConeLimit> cone;
 };
 
 class Reader {
@@ -58,7 +61,7 @@ class Reader {
   std::string add(const physics::BallSocket& c, Blueprint& plan) {
     Parts& parts = partsOf(c.bodies);
     if (parts.ball) {  // a second one
-      plan.joints.push_back({Kind::kBall, c.bodies, c.anchors, {}, 0, {}});
+      plan.joints.push_back({Kind::kBall, c.bodies, c.anchors, {}, 0, {}, {}});
     } else {
       parts.ball = c.anchors;
     }
@@ -86,15 +89,21 @@ class Reader {
     partsOf(c.bodies).twist = c;
     return "";
   }
+  std::string add(const physics::ConeLimit& c, Blueprint&) {
+    Parts& parts = partsOf(c.bodies);
+    if (parts.cone) return "other engines have no second ";
+    parts.cone = c;
+    return "";
+  }
   std::string add(const physics::Distance& c, Blueprint& plan) {
     if (c.rope) return "other engines have no slack ";
-    plan.joints.push_back({Kind::kDistance, c.bodies, c.anchors, {}, c.length, {}});
+    plan.joints.push_back({Kind::kDistance, c.bodies, c.anchors, {}, c.length, {}, {}});
     return "";
   }
   std::string add(const physics::Link& c, Blueprint& plan) {
     if (c.rope || c.compliance > 0) return "other engines have no slack or compliant ";
     plan.joints.push_back(
-        {Kind::kDistance, c.bodies, {Vec3::Zero(), Vec3::Zero()}, {}, c.length, {}});
+        {Kind::kDistance, c.bodies, {Vec3::Zero(), Vec3::Zero()}, {}, c.length, {}, {}});
     return "";
   }
 
@@ -114,6 +123,7 @@ class Reader {
       return "other engines have no joint of these constraints between two bodies";
     }
     joint.anchors = *parts.ball;
+    if (parts.cone) return addCone(parts, joint, plan);
     if (parts.axle) joint.kind = Kind::kHinge;
     if (parts.cross) joint.kind = Kind::kUniversal;
     if (parts.axle || parts.cross) joint.axes = parts.axle ? *parts.axle : *parts.cross;
@@ -125,6 +135,25 @@ class Reader {
       const double now = parts.twist->twist({plan.start.pose, plan.start.pose, 0});
       joint.limits = {parts.twist->low - now, parts.twist->high - now};
     }
+    plan.joints.push_back(joint);
+    return "";
+  }
+
+  // A twist is counted about the middle of the cone, from the shortest swing to it.
+  static std::string addCone(const Parts& parts, PeerJoint& joint, Blueprint& plan) {
+    const Vec3 &centre = parts.cone->axes[0], &axis = parts.cone->axes[1];
+    PeerCone cone{centre, parts.cone->angle, {-physics::kPi, physics::kPi}, {}};
+    cone.reference = physics::turnBetween(axis, centre);
+    if (parts.twist) {
+      cone.reference = parts.twist->reference;
+      cone.twist = {parts.twist->low, parts.twist->high};
+    }
+    const bool same = !parts.twist || 1 - parts.twist->axisI.dot(centre) <= kSameAxis;
+    if (parts.axle || parts.cross || !same || 1 - (cone.reference * axis).dot(centre) > kSameAxis) {
+      return "other engines have no cone_limit but of a ball_socket, about the axis of its "
+             "twist_limit";
+    }
+    joint.cone = cone;
     plan.joints.push_back(joint);
     return "";
   }
@@ -174,6 +203,11 @@ bool isPoint(const World& world, BodyId body) {
 
 bool isMovable(const World& world, BodyId body) {
   return world.bodies().motion[body] == physics::Motion::kDynamic;
+}
+
+bool Blueprint::hasCones() const {
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const PeerJoint& joint) { return joint.cone.has_value(); });
 }
 
 bool Blueprint::ignores(BodyId a, BodyId b) const {

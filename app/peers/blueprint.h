@@ -11,6 +11,14 @@
 
 namespace app {
 
+// How far the second body of a ball joint may swing from an axis of the first, and turn about it.
+struct PeerCone {
+  physics::Vec3 axis = physics::Vec3::UnitX();          // frame of the first body
+  double angle = 0;                                     // of the swing, on all sides [rad]
+  std::array<double, 2> twist{};                        // [rad]; 0 and no swing at `reference`
+  physics::Quat reference = physics::Quat::Identity();  // of the second in the frame of the first
+};
+
 struct PeerJoint {
   enum class Kind { kBall, kHinge, kUniversal, kSlider, kDistance };
   Kind kind = Kind::kBall;
@@ -21,6 +29,7 @@ struct PeerJoint {
   std::array<physics::Vec3, 2> axes{physics::Vec3::UnitX(), physics::Vec3::UnitX()};  // body frames
   double length = 0;                            // of a distance [m]
   std::optional<std::array<double, 2>> limits;  // turn of bodies[1] about the hinge's axis [rad]
+  std::optional<PeerCone> cone;                 // of a ball
 };
 
 struct Blueprint {
@@ -30,6 +39,7 @@ struct Blueprint {
   std::vector<std::array<physics::BodyId, 2>> ignored;  // first < second, sorted
   std::string refusal;  // why no engine can express it; empty: some can
 
+  bool hasCones() const;
   bool ignores(physics::BodyId a, physics::BodyId b) const;
 };
 

@@ -68,10 +68,29 @@ class BulletRigid : public BulletPeer {
     return toBullet(physics::Pose{joint.anchors[side], q});
   }
 
+  // Bullet's cone is about x of both frames, its twist as far to either side.
+  void addCone(const PeerJoint& joint, const PeerCone& cone) {
+    const Vec3 u = physics::anyNormalTo(cone.axis);
+    Mat3 axes;
+    axes << cone.axis, u, cone.axis.cross(u);
+    const physics::Quat first(axes);
+    const auto [low, high] = cone.twist;
+    const physics::Quat toMiddle = physics::exponential(-(low + high) / 2 * Vec3::UnitX());
+    const physics::Quat second = cone.reference.conjugate() * first * toMiddle;
+    auto joined =
+        std::make_unique<btConeTwistConstraint>(*rigid_[joint.bodies[0]], *rigid_[joint.bodies[1]],
+                                                toBullet(physics::Pose{joint.anchors[0], first}),
+                                                toBullet(physics::Pose{joint.anchors[1], second}));
+    joined->setLimit(cone.angle, cone.angle, (high - low) / 2);
+    joints_.push_back(std::move(joined));
+  }
+
   void addJoint(const PeerJoint& joint) {
     btRigidBody &a = *rigid_[joint.bodies[0]], &b = *rigid_[joint.bodies[1]];
     if (a.isStaticOrKinematicObject() && b.isStaticOrKinematicObject()) return;
-    if (joint.kind == Kind::kBall) {
+    if (joint.cone) {
+      addCone(joint, *joint.cone);
+    } else if (joint.kind == Kind::kBall) {
       joints_.push_back(std::make_unique<btPoint2PointConstraint>(a, b, toBullet(joint.anchors[0]),
                                                                   toBullet(joint.anchors[1])));
     } else if (joint.kind == Kind::kUniversal) {

@@ -235,6 +235,7 @@ template <bool isRungeKutta>
 PeerStart startMultibody(const physics::World& world, int iterations) {
   Blueprint plan = makeBlueprint(world);
   if (!plan.refusal.empty()) return {nullptr, plan.refusal};
+  if (plan.hasCones()) return {nullptr, "Bullet's articulated bodies have no cone_limit"};
   const Forest forest = findTrees(world, plan);
   if (!forest.refusal.empty()) return {nullptr, forest.refusal};
   if (forest.trees.empty()) return {nullptr, "nothing is articulated: the same as bullet"};

@@ -249,6 +249,7 @@ class OdePeer : public Peer {
 PeerStart startOde(const physics::World& world, int iterations) {
   Blueprint plan = makeBlueprint(world);
   if (!plan.refusal.empty()) return {nullptr, plan.refusal};
+  if (plan.hasCones()) return {nullptr, "ODE has no cone_limit"};
   return {std::make_unique<OdePeer>(world, std::move(plan), iterations), ""};
 }
 

@@ -4,37 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <utility>
 
+#include "scenes/measure/thickness.h"
 #include "scenes/simulation.h"
 
 namespace scenes {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Of the thinner body's thickness. Stacks that were typed in by hand overlap by rounding, a
 // thousandth; past a half the bodies' centres have passed each other.
 constexpr double kDeep = 0.1;
-
-// The diameter of the largest sphere about the centre of mass that fits in [m]; infinite for what
-// has no inside to measure against: a plane, a point.
-double thicknessOf(const physics::Shape& shape) {
-  if (const auto* box = std::get_if<physics::Box>(&shape)) return box->size.minCoeff();
-  if (const auto* sphere = std::get_if<physics::Sphere>(&shape)) return 2 * sphere->radius;
-  if (const auto* capsule = std::get_if<physics::Capsule>(&shape)) return 2 * capsule->radius;
-  if (const auto* cylinder = std::get_if<physics::Cylinder>(&shape)) {
-    return std::min(2 * cylinder->radius, cylinder->length);
-  }
-  const auto* convex = std::get_if<physics::Convex>(&shape);
-  if (convex == nullptr) return kInfinity;
-  double nearest = kInfinity;
-  for (const physics::Hull::Face& face : convex->hull->faces) {
-    nearest = std::min(nearest, face.offset);
-  }
-  return 2 * nearest;
-}
 
 struct Overlap {
   physics::BodyId a = -1, b = -1;

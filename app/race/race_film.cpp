@@ -1,0 +1,172 @@
+// Draws a race: panels in parallel, frames put together in order on the calling thread.
+#include "app/race/race_film.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include "app/base/interrupt.h"
+#include "app/commands/exit_code.h"
+#include "app/run/frame_folder.h"
+#include "app/run/pipeline.h"
+#include "render/film.h"
+#include "render/png.h"
+#include "scenes/view/view.h"
+
+namespace app {
+
+namespace {
+
+constexpr float kOutOfSight = 1e3F;  // times what the picture is about: less than a pixel
+
+// The states of a track, one after the other, as a scene that a view can be had of.
+class Replay {
+ public:
+  Replay(const scenes::Scene& scene, const RaceTrack& track)
+      : track_(track), simulation_(scene), velocities_(simulation_.world().bodies().velocity) {
+    std::fill(velocities_.begin(), velocities_.end(), physics::Velocity{});
+  }
+
+  // An engine that gave up stays as it was, and the clock goes on.
+  const scenes::Simulation& show(int frame) {
+    const auto last = static_cast<int>(track_.poses.size()) - 1;
+    if (frame > 0) {
+      simulation_.place(track_.poses[static_cast<std::size_t>(std::min(frame, last))], velocities_);
+    }
+    return simulation_;
+  }
+
+ private:
+  const RaceTrack& track_;
+  scenes::Simulation simulation_;
+  std::vector<physics::Velocity> velocities_;
+};
+
+// What ours did, or else the first one while it was whole: no camera follows an explosion.
+scenes::MotionBounds boundsOf(const Race& race) {
+  const auto found = std::find_if(race.tracks.begin(), race.tracks.end(),
+                                  [](const RaceTrack& track) { return track.ran(); });
+  const bool trusted = found->entry.engine == "dbd" || !found->broke;
+  const int frames = trusted ? static_cast<int>(found->poses.size()) : found->broke->frame + 1;
+  scenes::MotionBounds bounds;
+  Replay replay(race.scene, *found);
+  for (int frame = 0; frame < frames; ++frame) bounds.include(replay.show(frame));
+  return bounds;
+}
+
+// States that are finite may be too far away for single precision.
+void dropWhatIsOutOfSight(render::Picture& picture) {
+  const float far = kOutOfSight * std::max(1.0F, picture.focusRadius);
+  const auto isFar = [&](const render::Vec3f& at) {
+    return !((at - picture.focusCenter).norm() < far);
+  };
+  std::erase_if(picture.instances, [&](const render::Instance& instance) {
+    return isFar(instance.position) || !(instance.size.norm() < far);
+  });
+  std::erase_if(picture.surfaces, [&](const render::Surface& surface) {
+    return std::any_of(surface.positions.begin(), surface.positions.end(), isFar);
+  });
+}
+
+// Frames whose panels are all drawn become pages, in order, while others are drawn.
+class RacePages {
+ public:
+  RacePages(const Race& race, const RaceLimits& limits, const RaceLayout& layout,
+            const FrameFolder& folder)
+      : race_(race), limits_(limits), layout_(layout), folder_(folder) {}
+
+  void take(int job, const render::Image& image) {  // from any thread
+    const std::lock_guard lock(mutex_);
+    done_[job] = image;
+  }
+
+  void print(Progress& progress) {
+    std::vector<render::Image> images;
+    while (printed_ < race_.frames && next(images)) {
+      const render::Page page = racePage(race_, limits_, layout_, printed_, std::move(images));
+      render::writePng(printer_.print(page), folder_.file(printed_));
+      ++printed_;
+      progress.advance();
+    }
+  }
+
+ private:
+  int job(int panel) const { return printed_ * layout_.panels + panel; }
+
+  bool next(std::vector<render::Image>& images) {
+    const std::lock_guard lock(mutex_);
+    for (int panel = 0; panel < layout_.panels; ++panel) {
+      if (race_.tracks[static_cast<std::size_t>(panel)].ran() && !done_.contains(job(panel))) {
+        return false;
+      }
+    }
+    images.assign(static_cast<std::size_t>(layout_.panels), {});
+    for (int panel = 0; panel < layout_.panels; ++panel) {
+      auto image = done_.extract(job(panel));
+      if (!image.empty()) images[static_cast<std::size_t>(panel)] = std::move(image.mapped());
+    }
+    return true;
+  }
+
+  const Race& race_;
+  const RaceLimits& limits_;
+  const RaceLayout& layout_;
+  const FrameFolder& folder_;
+  render::PagePrinter printer_;
+  std::mutex mutex_;
+  std::map<int, render::Image> done_;  // by frame times panels plus panel
+  int printed_ = 0;
+};
+
+bool drawFrames(const Race& race, const RaceLimits& limits, const RaceDrawing& drawing,
+                const RaceLayout& layout, const FrameFolder& folder) {
+  scenes::ViewOptions options;
+  options.aspect = static_cast<double>(layout.panelWidth) / layout.pictureHeight;
+  const scenes::MotionBounds bounds = boundsOf(race);
+  std::vector<std::unique_ptr<Replay>> replays;
+  for (const RaceTrack& track : race.tracks) {
+    replays.push_back(track.ran() ? std::make_unique<Replay>(race.scene, track) : nullptr);
+  }
+  Progress progress(drawing.progress, race.scene.name, "drawing", race.frames);
+  RacePages pages(race, limits, layout, folder);
+  Pipeline pipeline({layout.panelWidth, layout.pictureHeight, drawing.quality, ""}, drawing.threads,
+                    [&](int job, const render::Image& image) { pages.take(job, image); });
+  for (int frame = 0; frame < race.frames; ++frame) {
+    for (int panel = 0; panel < layout.panels; ++panel) {
+      if (interrupted()) return false;
+      Replay* const replay = replays[static_cast<std::size_t>(panel)].get();
+      if (replay == nullptr) continue;
+      render::Picture picture = scenes::view(replay->show(frame), bounds, options, {});
+      dropWhatIsOutOfSight(picture);
+      pipeline.draw(frame * layout.panels + panel, std::move(picture));
+    }
+    pages.print(progress);
+  }
+  pipeline.finish();
+  pages.print(progress);
+  progress.finish();
+  return true;
+}
+
+}  // namespace
+
+std::string filmRace(const Race& race, const RaceLimits& limits, const RaceDrawing& drawing,
+                     const std::filesystem::path& folder) {
+  const RaceLayout layout =
+      layoutRace(static_cast<int>(race.tracks.size()), drawing.width, drawing.height);
+  const FrameFolder frames(folder);
+  frames.clear();
+  if (!drawFrames(race, limits, drawing, layout, frames)) return "";
+  const std::string name = "race_" + race.scene.name + ".mp4";
+  render::FilmOptions options;
+  options.framesPerSecond = race.scene.fps;
+  try {
+    render::makeFilm(render::frameFiles(frames.path(), 0, race.frames - 1), folder / name, options);
+  } catch (const render::FilmError& error) {
+    if (interrupted()) return "";
+    throw EnvironmentError(error.what());
+  }
+  return name;
+}
+
+}  // namespace app
