@@ -161,6 +161,15 @@ class Reader {
   std::vector<Parts> parts_;
 };
 
+std::string softWord(const World& world) {
+  bool hasVolume = false, hasRope = false;
+  for (const physics::ConstraintItem& item : world.constraints()) {
+    hasVolume = hasVolume || std::holds_alternative<physics::Volume>(item.item);
+    hasRope = hasRope || std::holds_alternative<physics::RopeLength>(item.item);
+  }
+  return hasVolume ? "soft bodies" : hasRope ? "ropes" : "cloths";
+}
+
 std::string refusalOf(const World& world) {
   const physics::Bodies& b = world.bodies();
   if (world.settings().stepping == physics::Stepping::kStatic) {
@@ -168,7 +177,8 @@ std::string refusalOf(const World& world) {
   }
   if (!world.arms().empty()) return "other engines have no arm";
   for (BodyId i = 1; i < b.size(); ++i) {
-    if (b.isSoft[i]) return "other engines have no points with a thickness";
+    if (b.isSoft[i])
+      return "other engines have no " + softWord(world) + ": points with a thickness";
     if (b.friction[i].staticCoefficient != b.friction[i].dynamicCoefficient &&
         world.settings().contact) {
       return "other engines have one coefficient of friction, not a static and a dynamic one";

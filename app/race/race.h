@@ -18,8 +18,7 @@ struct RaceSample {         // of one frame
   double gap = 0;           // the largest of a joint [m]
   double gapShare = 0;      // the largest, of the size of the smaller body that it joins
   double energy = 0;        // kinetic, of gravity and of springs [J]
-  double energyChange =
-      0;  // since the start, of the larger of what it was and of the most that moved
+  double energyChange = 0;  // since the start, of the larger of what it was and the most that moved
 };
 
 struct RaceBreak {  // the first thing that went wrong

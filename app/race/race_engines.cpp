@@ -104,12 +104,11 @@ RaceStarter startRacer(const std::string& engine, const scenes::Simulation& simu
   for (const PeerMethod& method : peerMethods()) {
     if (method.name == word->method) starter.entry.setup = peerSetup(method, scene.fps);
   }
-  if (isScripted(scene)) {
-    starter.entry.refusal = "other engines do not follow the scripts of a scene: poses over time";
-    return starter;
-  }
   PeerStart start = startPeer(word->method, simulation.world());
   starter.entry.refusal = start.refusal;
+  if (start.refusal.empty() && isScripted(scene)) {
+    starter.entry.refusal = "other engines do not follow the scripts of a scene: poses over time";
+  }
   starter.peer = std::move(start.peer);
   return starter;
 }

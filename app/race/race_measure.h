@@ -25,6 +25,7 @@ class RaceMeter {
   scenes::Sampler sampler_;
   std::vector<double> size_;       // of bodies, by BodyId [m]; 0: a point
   std::vector<double> thickness_;  // of bodies, by BodyId [m]; infinite: none
+  double leastEnergy_ = 0;         // J, below which nothing moves
   std::vector<physics::Pose> start_;
   // Pairs that overlap at the start, and how deep [m]: that is the scene's, not an engine's.
   std::map<std::pair<physics::BodyId, physics::BodyId>, double> given_;

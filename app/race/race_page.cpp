@@ -19,7 +19,7 @@ using render::Pixel;
 
 constexpr int kPanelWidth = 640, kHeight = 720;         // px, where nothing is asked for
 constexpr float kTextShare = 22.0F / kPanelWidth;       // of a panel's width
-constexpr float kTopLines = 4.3F, kBottomLines = 4.7F;  // above and below the pictures
+constexpr float kTopLines = 5.2F, kBottomLines = 4.7F;  // above and below the pictures
 constexpr float kLetter = 0.52F;                        // mean width of a letter, of its size
 constexpr int kLeastPicture = 32;                       // px
 const Color kInk(0.1F, 0.1F, 0.11F, 1), kQuiet(0.45F, 0.45F, 0.47F, 1), kBad(0.78F, 0.1F, 0.1F, 1);
@@ -175,11 +175,11 @@ render::Page racePage(const Race& race, const RaceLimits& limits, const RaceLayo
   page.width = layout.width;
   page.height = layout.height;
   const float u = layout.textSize;
-  const Pixel at(static_cast<float>(layout.gap), 1.35F * u);
-  page.texts.push_back({at, escaped(race.scene.title), 1.1F * u, 0, kInk, false});
+  const Pixel at(static_cast<float>(layout.gap), 1.5F * u);
+  page.texts.push_back({at, escaped(race.scene.title), 1.25F * u, 0, kInk, false});
   const double time = static_cast<double>(frame) / race.scene.fps;
   page.texts.push_back({Pixel(static_cast<float>(layout.width - layout.gap), at.y()),
-                        fmt::format("{:.2f} s", time), 1.1F * u, 1, kInk, false});
+                        fmt::format("{:.2f} s", time), 1.25F * u, 1, kInk, false});
   for (int k = 0; k < layout.panels; ++k) {
     Panel(race, limits, layout, k, page).add(frame, std::move(images[static_cast<std::size_t>(k)]));
   }

@@ -27,6 +27,51 @@ TEST_P(PeerJoints, StopAtTheLimitOfAHinge) {
   EXPECT_NEAR(std::atan2(x.y(), x.x()), -0.6, 0.02);
 }
 
+// A bar along x on a ball joint whose cone is about x.
+World makeConedBar(const physics::Settings& settings, const physics::Velocity& velocity) {
+  World world(settings);
+  const BodyId bar = addBody(world, physics::Box{{1, 0.2, 0.1}}, {0.5, 0, 0});
+  world.setVelocity(bar, velocity);
+  physics::BallSocketDef ball;
+  ball.bodies = {physics::kWorldBody, bar};
+  world.add(ball);
+  physics::ConeLimitDef cone;
+  cone.bodies = ball.bodies;
+  cone.axes = {{Vec3::UnitX(), Vec3::UnitX()}};
+  cone.angle = 0.5;
+  world.add(cone);
+  physics::TwistLimitDef twist;
+  twist.bodies = ball.bodies;
+  twist.axis = Vec3::UnitX();
+  twist.range = {-0.2, 0.7};
+  world.add(twist);
+  return world;
+}
+
+TEST_P(PeerJoints, StopAtTheConeOfABall) {
+  SKIP_WHERE_ABSENT();
+  PeerRun run(makeConedBar(falling(), {}), GetParam());
+  SKIP_WHERE_REFUSED(run);
+  run.steps(3000, 1e-3);
+  const Vec3& x = run.bodies().pose[1].x;
+  EXPECT_NEAR(std::atan2(-x.y(), std::hypot(x.x(), x.z())), 0.5, 0.03);
+}
+
+TEST_P(PeerJoints, StopAtBothEndsOfTheTwistOfABall) {
+  SKIP_WHERE_ABSENT();
+  for (const double way : {1.0, -1.0}) {
+    PeerRun run(makeConedBar(physics::testing::sweeps(), {{0, 0, 0}, {2 * way, 0, 0}}), GetParam());
+    SKIP_WHERE_REFUSED(run);
+    double most = 0;
+    for (int k = 0; k < 1000; ++k) {
+      run.steps(1, 1e-3);
+      const physics::Quat& q = run.bodies().pose[1].q;
+      most = std::max(most, way * 2 * std::atan2(q.x(), q.w()));
+    }
+    EXPECT_NEAR(most, way > 0 ? 0.7 : 0.2, 0.03);
+  }
+}
+
 World makeSpacePendulum() {
   World world(falling());
   physics::BodyDef def;

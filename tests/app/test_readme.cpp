@@ -20,6 +20,7 @@ const std::map<std::string, std::string> kShort = {
     {"golden", " pendulum --progress none"},
     {"compare", ""},
     {"plan", " --steps 2 --repeats 1"},
+    {"race", " --seconds 0.05 --size 300x120 --quality draft --progress none"},
     {"study", " --quick --progress none"},
     {"words", ""},
     {"trust", " --set duration=0.05 --size 96x64 --quality draft --progress none"},
