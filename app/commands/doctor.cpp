@@ -86,10 +86,10 @@ Finding findScenes() {
   return {"scenes", fmt::format("{} in {}", count, scenes::libraryFolder()), count > 0, ""};
 }
 
-// Other engines are for the studies: nothing fails without them.
+// Other engines are for studies and races: nothing fails without them.
 Finding findPeer(const PeerEngine& engine) {
   if (!engine.version.empty()) return {engine.name, engine.version, true, ""};
-  return {engine.name, "not built in: the studies go without; " + engine.package, true, ""};
+  return {engine.name, "not built in: studies and races go without; " + engine.package, true, ""};
 }
 
 ExitCode doctor() {

@@ -21,8 +21,6 @@ using physics::Vec3;
 using Kind = PeerJoint::Kind;
 
 constexpr double kNoLimit = 1e12;  // of a coordinate's speed
-constexpr double kSameStart =
-    1e-6;  // m, m/s, rad/s: what joint coordinates may take from the start
 
 struct Place {  // of a body in its tree
   int tree = -1, link = -1;
@@ -215,19 +213,6 @@ class BulletTree : public BulletPeer {
   mutable btAlignedObjectArray<btQuaternion> rotations_;
   mutable btAlignedObjectArray<btVector3> origins_, omega_, speed_;
 };
-
-// Joint coordinates hold no joint that is open or opens: such a start would be another one.
-bool startsAsGiven(const BulletTree& peer, const physics::Bodies& b) {
-  PeerState state{b.pose, b.velocity};
-  peer.read(state.pose, state.velocity);
-  double worst = 0;
-  for (BodyId i = 0; i < b.size(); ++i) {
-    worst = std::max({worst, (state.pose[i].x - b.pose[i].x).norm(),
-                      (state.velocity[i].v - b.velocity[i].v).norm(),
-                      (state.velocity[i].w - b.velocity[i].w).norm()});
-  }
-  return worst < kSameStart;
-}
 
 }  // namespace
 

@@ -20,5 +20,6 @@ struct PeerOffer {
 
 PeerOffer bulletOffer();
 PeerOffer odeOffer();
+PeerOffer mujocoOffer();
 
 }  // namespace app

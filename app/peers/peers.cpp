@@ -6,7 +6,7 @@ namespace app {
 namespace {
 
 const std::vector<PeerOffer>& offers() {
-  static const std::vector<PeerOffer> kOffers{bulletOffer(), odeOffer()};
+  static const std::vector<PeerOffer> kOffers{bulletOffer(), odeOffer(), mujocoOffer()};
   return kOffers;
 }
 

@@ -14,6 +14,8 @@ using physics::Motion;
 using physics::Vec3;
 using Kind = PeerJoint::Kind;
 
+constexpr double kSameStart =
+    1e-6;                       // m, m/s, rad/s: what joint coordinates may take from the start
 constexpr double kFlat = 1e-9;  // of a length: what leaves the plane by less is in it
 
 class Finder {
@@ -134,6 +136,18 @@ class Finder {
 };
 
 }  // namespace
+
+bool startsAsGiven(const Peer& peer, const physics::Bodies& b) {
+  PeerState state{b.pose, b.velocity};
+  peer.read(state.pose, state.velocity);
+  double worst = 0;
+  for (BodyId i = 0; i < b.size(); ++i) {
+    worst = std::max({worst, (state.pose[i].x - b.pose[i].x).norm(),
+                      (state.velocity[i].v - b.velocity[i].v).norm(),
+                      (state.velocity[i].w - b.velocity[i].w).norm()});
+  }
+  return worst < kSameStart;
+}
 
 Forest findTrees(const physics::World& world, const Blueprint& plan) {
   return Finder(world, plan).find();

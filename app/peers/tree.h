@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/peers/blueprint.h"
+#include "app/peers/peer.h"
 
 namespace app {
 
@@ -29,6 +30,9 @@ struct Forest {
   std::vector<Tree> trees;
   std::string refusal;
 };
+
+// Joint coordinates hold no joint that is open or opens: such a start would be another one.
+bool startsAsGiven(const Peer& peer, const physics::Bodies& bodies);
 
 Forest findTrees(const physics::World& world, const Blueprint& plan);
 

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/base/build_info.h"
 #include "app/base/nearest.h"
@@ -18,9 +19,11 @@ constexpr const char* kOurs = "dbd";
 
 struct Word {
   const char *word, *engine, *method;  // of PeerEngine, of PeerMethod
+  double step;                         // that its users begin with [s]
 };
-constexpr Word kWords[] = {
-    {"bullet", "Bullet", "bullet"}, {"ode", "ODE", "ode_quick"}, {"mujoco", "MuJoCo", "mujoco"}};
+constexpr Word kWords[] = {{"bullet", "Bullet", "bullet", 1.0 / 60},
+                           {"ode", "ODE", "ode_quick", 1.0 / 60},
+                           {"mujoco", "MuJoCo", "mujoco", 0.002}};
 
 const PeerEngine* findEngine(const std::vector<PeerEngine>& engines, const std::string& name) {
   const auto found = std::find_if(engines.begin(), engines.end(),
@@ -36,8 +39,9 @@ RaceEntry ourEntry(const scenes::Scene& scene) {
   return {kOurs, "dbd " + version(), setup, ""};
 }
 
-std::string peerSetup(const PeerMethod& method, int fps) {
-  std::string setup = fmt::format("one step of 1/{} s", fps);
+std::string peerSetup(const PeerMethod& method, int steps, int fps) {
+  std::string setup = steps == 1 ? fmt::format("one step of 1/{} s", fps)
+                                 : fmt::format("{} steps of 1/{} s", steps, steps * fps);
   if (method.iterations > 0) setup += fmt::format(", {} iterations", method.iterations);
   return setup;
 }
@@ -93,7 +97,7 @@ std::vector<std::string> checkedRaceEngines(const std::vector<std::string>& word
 
 RaceStarter startRacer(const std::string& engine, const scenes::Simulation& simulation) {
   const scenes::Scene& scene = simulation.scene();
-  if (engine == kOurs) return {ourEntry(scene), nullptr};
+  if (engine == kOurs) return {ourEntry(scene), nullptr, 1};
   const auto* word = std::find_if(std::begin(kWords), std::end(kWords),
                                   [&](const Word& w) { return engine == w.word; });
   const std::vector<PeerEngine> engines = peerEngines();
@@ -101,8 +105,10 @@ RaceStarter startRacer(const std::string& engine, const scenes::Simulation& simu
   RaceStarter starter;
   starter.entry = {engine, found->name + " " + found->version.substr(0, found->version.find(',')),
                    "", ""};
+  starter.steps = std::max(1, static_cast<int>(std::lround(1 / (scene.fps * word->step))));
   for (const PeerMethod& method : peerMethods()) {
-    if (method.name == word->method) starter.entry.setup = peerSetup(method, scene.fps);
+    if (method.name == word->method)
+      starter.entry.setup = peerSetup(method, starter.steps, scene.fps);
   }
   PeerStart start = startPeer(word->method, simulation.world());
   starter.entry.refusal = start.refusal;

@@ -21,6 +21,7 @@ struct RaceEntry {
 struct RaceStarter {
   RaceEntry entry;
   std::unique_ptr<Peer> peer;
+  int steps = 1;  // of the peer in a frame
 };
 
 // "dbd", and the words of those that were found when this was built.

@@ -22,7 +22,8 @@ constexpr float kTextShare = 22.0F / kPanelWidth;       // of a panel's width
 constexpr float kTopLines = 5.2F, kBottomLines = 4.7F;  // above and below the pictures
 constexpr float kLetter = 0.52F;                        // mean width of a letter, of its size
 constexpr int kLeastPicture = 32;                       // px
-const Color kInk(0.1F, 0.1F, 0.11F, 1), kQuiet(0.45F, 0.45F, 0.47F, 1), kBad(0.78F, 0.1F, 0.1F, 1);
+const Color kInk(0.1F, 0.1F, 0.11F, 1), kQuiet(0.45F, 0.45F, 0.47F, 1), kBad(0.78F, 0.1F, 0.1F, 1),
+    kFrame(0.8F, 0.8F, 0.8F, 1);
 
 render::Image plain(int width, int height, const Color& color) {
   render::Image image{width, height, {}};
@@ -59,7 +60,7 @@ class Panel {
     if (!track_.ran()) return refuse();
     page_.tiles.push_back({left_, layout_.top, std::move(image)});
     const bool broken = track_.broke && frame >= track_.broke->frame;
-    if (broken) frameRed();
+    outline(broken ? kBad : kFrame, broken ? 0.25F : 0);
     const std::size_t last = track_.samples.size() - 1;
     numbers(frame, track_.samples[std::min(static_cast<std::size_t>(frame), last)]);
     status(broken);
@@ -98,13 +99,13 @@ class Panel {
     flush();
   }
 
-  void frameRed() {
+  void outline(const Color& color, float lines) {
     const int w = layout_.panelWidth, h = layout_.pictureHeight;
-    const int t = std::max(2, static_cast<int>(0.25F * layout_.textSize));
-    page_.tiles.push_back({left_, layout_.top, plain(w, t, kBad)});
-    page_.tiles.push_back({left_, layout_.top + h - t, plain(w, t, kBad)});
-    page_.tiles.push_back({left_, layout_.top, plain(t, h, kBad)});
-    page_.tiles.push_back({left_ + w - t, layout_.top, plain(t, h, kBad)});
+    const int t = std::max(1, static_cast<int>(lines * layout_.textSize));
+    page_.tiles.push_back({left_, layout_.top, plain(w, t, color)});
+    page_.tiles.push_back({left_, layout_.top + h - t, plain(w, t, color)});
+    page_.tiles.push_back({left_, layout_.top, plain(t, h, color)});
+    page_.tiles.push_back({left_ + w - t, layout_.top, plain(t, h, color)});
   }
 
   void number(int column, int line, const char* name, const std::string& value, bool bad) {

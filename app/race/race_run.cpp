@@ -25,6 +25,7 @@ class Racer {
     RaceStarter starter = startRacer(engine, shown_);
     track_.entry = starter.entry;
     peer_ = std::move(starter.peer);
+    steps_ = starter.steps;
     poses_ = shown_.world().bodies().pose;
     velocities_ = shown_.world().bodies().velocity;
     if (!track_.ran()) return;
@@ -52,7 +53,7 @@ class Racer {
  private:
   std::string stepPeer() {
     try {
-      peer_->step(1.0 / shown_.scene().fps);
+      for (int k = 0; k < steps_; ++k) peer_->step(1.0 / (shown_.scene().fps * steps_));
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -93,6 +94,7 @@ class Racer {
   Simulation shown_;
   std::optional<Simulation> ours_;  // where the engine is ours
   std::unique_ptr<Peer> peer_;      // where it is another
+  int steps_ = 1;                   // of it in a frame
   RaceMeter meter_;
   scenes::Checker checker_;
   std::vector<physics::Pose> poses_;

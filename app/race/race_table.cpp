@@ -26,10 +26,11 @@ std::string row(const RaceTrack& track, const Race& race) {
     return there ? lengthText(length) + ", " + shareText(share) : std::string("none");
   };
   std::string text = fmt::format(
-      "{:<14} {:>8.3g} {:>8.3g} {:>8.3g}  {:<18} {:<18} {:<10} {}\n", track.entry.title,
+      "{:<14} {:>8.3g} {:>8.3g} {:>8.3g}  {:<18} {:<18} {:<16} {}\n", track.entry.title,
       worst.median, worst.mean, worst.slowest,
       measure(race.hasContacts, worst.overlap, worst.overlapShare),
-      measure(race.hasJoints, worst.gap, worst.gapShare), shareText(worst.energyChange),
+      measure(race.hasJoints, worst.gap, worst.gapShare),
+      shareText(worst.energyMost) + ", " + shareText(worst.energyEnd),
       track.broke
           ? fmt::format("{:.2f} s: {}", static_cast<double>(track.broke->frame) / race.scene.fps,
                         track.broke->what)
@@ -55,7 +56,7 @@ Json describe(const RaceTrack& track, int fps) {
       {"median", worst.median}, {"mean", worst.mean}, {"slowest", worst.slowest}};
   json["overlap"] = {{"metres", worst.overlap}, {"share", worst.overlapShare}};
   json["gap"] = {{"metres", worst.gap}, {"share", worst.gapShare}};
-  json["energy_change"] = worst.energyChange;
+  json["energy_change"] = {{"most", worst.energyMost}, {"end", worst.energyEnd}};
   json["missed"] = describe(track.missed, fps);
   json["gave_up"] = describe(track.gaveUp, fps);
   json["broke"] = describe(track.broke, fps);
@@ -73,9 +74,9 @@ RaceWorst worstOf(const RaceTrack& track) {
     worst.overlapShare = std::max(worst.overlapShare, sample.overlapShare);
     worst.gap = std::max(worst.gap, sample.gap);
     worst.gapShare = std::max(worst.gapShare, sample.gapShare);
-    worst.energyChange = std::max(worst.energyChange, sample.energyChange);
+    worst.energyMost = std::max(worst.energyMost, sample.energyChange);
   }
-  if (!(worst.energyChange > 0)) worst.energyChange = track.samples.back().energyChange;
+  worst.energyEnd = track.samples.back().energyChange;
   for (const double ms : milliseconds) {
     worst.mean += ms / static_cast<double>(milliseconds.size());
     worst.slowest = std::max(worst.slowest, ms);
@@ -119,8 +120,8 @@ std::string raceTable(const Race& race, const RaceLimits& limits) {
                         track.ran() ? track.entry.setup : "does not run");
   }
   text +=
-      fmt::format("\n{:<14} {:>8} {:>8} {:>8}  {:<18} {:<18} {:<10} {}\n", "ms/frame:", "median",
-                  "mean", "worst", "overlap", "joint gap", "energy", "broke");
+      fmt::format("\n{:<14} {:>8} {:>8} {:>8}  {:<18} {:<18} {:<16} {}\n", "ms/frame:", "median",
+                  "mean", "worst", "overlap", "joint gap", "energy most, end", "broke");
   for (const RaceTrack& track : race.tracks) text += row(track, race);
   text += "\nBroken is who has\n";
   for (const std::string& line : criteriaOf(race, limits)) text += "  " + line + "\n";

@@ -10,7 +10,7 @@ namespace app {
 struct RaceWorst {                           // over a run
   double median = 0, mean = 0, slowest = 0;  // ms of the processor per frame
   double overlap = 0, overlapShare = 0, gap = 0, gapShare = 0;
-  double energyChange = 0;  // the most that it was above the start, or else what is gone at the end
+  double energyMost = 0, energyEnd = 0;  // RaceSample::energyChange
 };
 RaceWorst worstOf(const RaceTrack& track);
 

@@ -30,7 +30,9 @@ TEST_P(Peers, StartAtTheStateOfTheWorldBitForBit) {
   for (BodyId i = 0; i < run.world.bodyCount(); ++i) {
     EXPECT_EQ(run.pose[i].x, run.bodies().pose[i].x);
     EXPECT_EQ(run.velocity[i].v, run.bodies().velocity[i].v);
-    EXPECT_EQ(run.velocity[i].w, run.bodies().velocity[i].w);
+    // MuJoCo keeps the turn of a free body in the body's own frame: there and back rounds.
+    EXPECT_LE((run.velocity[i].w - run.bodies().velocity[i].w).norm(),
+              GetParam() == "mujoco" ? 1e-15 : 0);
     // Bullet keeps matrices: the way there and back rounds a few times.
     EXPECT_LT(run.pose[i].q.angularDistance(run.bodies().pose[i].q), 1e-15);
   }
