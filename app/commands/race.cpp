@@ -49,6 +49,15 @@ void requireOwnFolder(const fs::path& folder) {
       folder.string()));
 }
 
+std::string summary(const Race& race, const RaceLimits& limits, const fs::path& folder,
+                    const std::string& film) {
+  std::string text = raceTable(race, limits);
+  for (const std::string& line : missingRaceEngines()) text += line + "\n";
+  text += (folder / "race.json").string() + "\n";
+  if (!film.empty()) text += (folder / film).string() + "\n";
+  return text;
+}
+
 ExitCode race(RaceOptions options) {
   const RaceDrawing drawing = drawingOf(options);
   const std::vector<std::string> engines =
@@ -75,12 +84,7 @@ ExitCode race(RaceOptions options) {
     if (film.empty()) return ExitCode::kInterrupted;
     writeFile(folder / "race.json", raceJson(*run, limits, film));
   }
-  if (options.common.quiet) return ExitCode::kDone;
-  std::string text = raceTable(*run, limits);
-  for (const std::string& line : missingRaceEngines()) text += line + "\n";
-  text += (folder / "race.json").string() + "\n";
-  if (!film.empty()) text += (folder / film).string() + "\n";
-  say(text);
+  if (!options.common.quiet) say(summary(*run, limits, folder, film));
   return ExitCode::kDone;
 }
 

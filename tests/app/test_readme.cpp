@@ -2,6 +2,7 @@
 #include <map>
 #include <regex>
 
+#include "app/race/race_engines.h"
 #include "program.h"
 
 namespace tests {
@@ -69,6 +70,7 @@ TEST_F(Readme, EveryCommandRuns) {
     command.erase(command.find_last_not_of(' ') + 1);
     const std::string word = command.substr(0, command.find(' '));
     ASSERT_TRUE(kShort.contains(word)) << command << ": say here how to cut it short";
+    if (word == "race" && app::raceEngines().size() < 2) continue;  // nobody to race with
     if (word == "render")
       command = std::regex_replace(command, std::regex(" --quality [a-z]+"), "");
     const Outcome outcome = run(command + kShort.at(word));
