@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/base/rotation.h"
+#include "scenes/moment.h"
 #include "scenes/read/recipe.h"
 
 namespace scenes {
@@ -74,6 +75,7 @@ struct Simulation::Impl {
   int iterations = 0, restarts = 0, fallbacks = 0, asleep = 0;
   physics::AccuracyReport accuracy;
   bool finite = true;
+  std::optional<Moment> shown;  // instead of what the world tells
 
   explicit Impl(const Scene& s) : scene(s), built(s.settings) {
     for (const Step& step : scene.content->steps) step(built);
@@ -95,6 +97,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 void Simulation::setThreads(int count) { impl_->built.world.setThreads(count); }
 
 physics::StepReport Simulation::advance() {
+  impl_->shown.reset();
   const double arrival = static_cast<double>(impl_->frame + 1) / impl_->scene.fps;
   for (const PoseScript& script : impl_->built.scripts) follow(script, arrival, impl_->built.world);
   for (const ArmScript& script : impl_->built.armScripts) {
@@ -115,19 +118,45 @@ bool Simulation::place(std::span<const physics::Pose> poses,
                        std::span<const physics::Velocity> velocities) {
   impl_->iterations = impl_->restarts = impl_->fallbacks = impl_->asleep = 0;
   impl_->accuracy = {};
+  impl_->shown.reset();
   impl_->finite = impl_->built.world.setState(poses, velocities);
   if (impl_->finite) ++impl_->frame;
   return impl_->finite;
+}
+
+Moment Simulation::moment() const {
+  if (impl_->shown) return *impl_->shown;
+  const physics::Bodies& bodies = world().bodies();
+  return {frame(),        bodies.pose, bodies.velocity, world().contacts(),
+          world().arms(), metrics(),   stateHash()};
+}
+
+bool Simulation::show(const Moment& moment) {
+  const auto count = static_cast<std::size_t>(world().bodyCount());
+  if (moment.poses.size() != count || moment.velocities.size() != count) return false;
+  if (!impl_->built.world.setState(moment.poses, moment.velocities)) return false;
+  impl_->frame = moment.frame;
+  impl_->shown = moment;
+  return true;
 }
 
 int Simulation::frame() const { return impl_->frame; }
 bool Simulation::isFinite() const { return impl_->finite; }
 const Scene& Simulation::scene() const { return impl_->scene; }
 const physics::World& Simulation::world() const { return impl_->built.world; }
-std::uint64_t Simulation::stateHash() const { return physics::stateHash(world()); }
+std::uint64_t Simulation::stateHash() const {
+  return impl_->shown ? impl_->shown->stateHash : physics::stateHash(world());
+}
+std::vector<physics::ContactReport> Simulation::contacts() const {
+  return impl_->shown ? impl_->shown->contacts : world().contacts();
+}
+std::vector<physics::ArmReport> Simulation::arms() const {
+  return impl_->shown ? impl_->shown->arms : world().arms();
+}
 const Simulation::Appearance& Simulation::appearance() const { return impl_->built.appearance; }
 
 FrameMetrics Simulation::metrics() const {
+  if (impl_->shown) return impl_->shown->metrics;
   const physics::Measures measures = physics::measure(world());
   FrameMetrics metrics;
   metrics.frame = impl_->frame;

@@ -30,6 +30,8 @@ struct FrameMetrics {
   physics::AccuracyReport accuracy;
 };
 
+struct Moment;  // moment.h
+
 class Simulation {
  public:
   explicit Simulation(const Scene& scene);  // throws InputError where the World refuses a value
@@ -46,12 +48,21 @@ class Simulation {
   // frame stays, where a number is not finite.
   bool place(std::span<const physics::Pose> poses, std::span<const physics::Velocity> velocities);
 
+  // The present frame, to be shown again: instead of advance(), in any order, and by any Simulation
+  // of the same scene. What is shown is seen and measured as it was, bit for bit, but cannot be
+  // stepped from: how the state came about is forgotten. False, and the frame stays, where a number
+  // is not finite or there are not as many as this scene has.
+  Moment moment() const;
+  bool show(const Moment& moment);
+
   int frame() const;
   bool isFinite() const;  // false once a step met a number that is not finite; the frame stays
   const Scene& scene() const;
   const physics::World& world() const;
   FrameMetrics metrics() const;
   std::uint64_t stateHash() const;
+  std::vector<physics::ContactReport> contacts() const;
+  std::vector<physics::ArmReport> arms() const;
 
   const std::string& bodyName(physics::BodyId body) const;
   physics::BodyId findBody(const std::string& name) const;  // -1: none

@@ -35,7 +35,7 @@ class Sketch {
 
   void draw() {
     const auto joints = simulation_.world().joints();
-    const auto contacts = simulation_.world().contacts();
+    const auto contacts = simulation_.contacts();
     lettered_ = joints.size() + contacts.size() <= kMostLettered;
     for (const physics::JointReport& joint : joints) {
       if (joint.axis.norm() > 0.5 && joint.axisB.norm() > 0.5) {

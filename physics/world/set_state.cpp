@@ -15,6 +15,9 @@ bool isFinite(const Pose& pose, const Velocity& velocity) {
          velocity.v.allFinite() && velocity.w.allFinite();
 }
 
+// As far as normalising makes one: then the state comes back bit for bit.
+bool isUnit(const Quat& q) { return std::abs(q.squaredNorm() - 1) < 1e-14; }
+
 void forget(WorldState& w) {
   w.contacts = {};
   w.small.forget();
@@ -79,7 +82,7 @@ bool World::setState(std::span<const Pose> poses, std::span<const Velocity> velo
   wakeAll(*impl_);
   for (BodyId i = kWorldBody + 1; i < b.size(); ++i) {
     b.pose[i] = poses[i];
-    if (poses[i].q.squaredNorm() != 1) b.pose[i].q.normalize();
+    if (!isUnit(poses[i].q)) b.pose[i].q.normalize();
     b.velocity[i] = velocities[i];
     b.shift[i].setZero();
     b.freeTurn[i].setZero();

@@ -116,7 +116,7 @@ void drawArms(const Simulation& simulation, const Overlays& overlays, render::Pi
   const ArmPen pen{picture};
   const bool all = overlays.arms;
   if (!all && !overlays.armTargets && !overlays.armTips && !overlays.armCentres) return;
-  for (const physics::ArmReport& arm : simulation.world().arms()) {
+  for (const physics::ArmReport& arm : simulation.arms()) {
     if (all || overlays.armCentres) drawCentres(pen, arm, all ? 1 : 2);
     if (all || overlays.armTips) drawTips(pen, arm);
     if (all) nameAngles(pen, arm);

@@ -20,7 +20,7 @@ const render::Color kContact{0.84f, 0.10f, 0.12f, 1}, kImpulse{0.55f, 0.05f, 0.4
     kJoint{0.05f, 0.30f, 0.65f, 1}, kAxis{0.95f, 0.55f, 0.05f, 1}, kCentre{0.08f, 0.08f, 0.08f, 1};
 
 void drawContacts(const Simulation& simulation, double scale, render::Picture& picture) {
-  for (const physics::ContactReport& contact : simulation.world().contacts()) {
+  for (const physics::ContactReport& contact : simulation.contacts()) {
     const Vec3 tip = contact.point + 0.06 * scale * contact.normal;
     picture.dots.push_back({contact.point.cast<float>(), kContact, 7});
     picture.lines.push_back(
@@ -38,7 +38,7 @@ void drawImpulses(const Simulation& simulation, double scale, render::Picture& p
     if (bodies.motion[b] == physics::Motion::kDynamic) mass += bodies.mass[b];
   }
   const double weight = 9.81 * mass * world.settings().dt / world.settings().substeps;
-  for (const physics::ContactReport& contact : world.contacts()) {
+  for (const physics::ContactReport& contact : simulation.contacts()) {
     const double size = contact.impulse.norm();
     if (size <= 1e-6 * weight) continue;
     const double length = 0.4 * scale * std::min(2.0, std::sqrt(size / weight));

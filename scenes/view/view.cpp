@@ -33,10 +33,10 @@ bool isEmpty(const MotionBounds& box) { return (box.low.array() > box.high.array
 double radiusOf(const MotionBounds& box) { return 0.5 * (box.high - box.low).norm(); }
 Vec3 centreOf(const MotionBounds& box) { return 0.5 * (box.low + box.high); }
 
-void include(const physics::Bodies& bodies, BodyId b, MotionBounds& box) {
-  const double radius = physics::boundingRadius(bodies.shape[b]);
-  box.low = box.low.cwiseMin(bodies.pose[b].x - Vec3::Constant(radius));
-  box.high = box.high.cwiseMax(bodies.pose[b].x + Vec3::Constant(radius));
+void include(const physics::Shape& shape, const Vec3& x, MotionBounds& box) {
+  const double radius = physics::boundingRadius(shape);
+  box.low = box.low.cwiseMin(x - Vec3::Constant(radius));
+  box.high = box.high.cwiseMax(x + Vec3::Constant(radius));
 }
 
 // What the picture is about: the motion, and fixed things of its size that stand around it.
@@ -49,7 +49,9 @@ MotionBounds stageOf(const Simulation& simulation, const MotionBounds& motion,
   for (BodyId b = 1; b < bodies.size(); ++b) {
     const bool wanted = matches(fit, simulation.bodyName(b));
     if (!wanted || bodies.motion[b] != Motion::kStatic || isPlane(bodies, b)) continue;
-    if (physics::boundingRadius(bodies.shape[b]) <= largest) include(bodies, b, stage);
+    if (physics::boundingRadius(bodies.shape[b]) <= largest) {
+      include(bodies.shape[b], bodies.pose[b].x, stage);
+    }
   }
   if (isEmpty(stage)) stage = {Vec3::Constant(-1), Vec3::Constant(1)};
   return stage;
@@ -218,10 +220,16 @@ void MotionBounds::include(const Simulation& simulation) {
 }
 
 void MotionBounds::include(const Simulation& simulation, const std::string& fit) {
+  include(simulation, fit, simulation.world().bodies().pose);
+}
+
+void MotionBounds::include(const Simulation& simulation, const std::string& fit,
+                           std::span<const physics::Pose> poses) {
   const physics::Bodies& bodies = simulation.world().bodies();
   for (BodyId b = 1; b < bodies.size(); ++b) {
     if (bodies.motion[b] == Motion::kStatic || isPlane(bodies, b)) continue;
-    if (matches(fit, simulation.bodyName(b))) scenes::include(bodies, b, *this);
+    if (!matches(fit, simulation.bodyName(b))) continue;
+    scenes::include(bodies.shape[b], poses[static_cast<size_t>(b)].x, *this);
   }
 }
 

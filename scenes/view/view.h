@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "render/picture.h"
 #include "scenes/simulation.h"
@@ -13,6 +14,9 @@ struct MotionBounds {
   physics::Vec3 low = physics::Vec3::Constant(1e300), high = physics::Vec3::Constant(-1e300);
   void include(const Simulation& simulation);  // the bodies that the scene's camera fits
   void include(const Simulation& simulation, const std::string& fit);  // those that match `fit`
+  // Where `poses` has them, by BodyId, instead of where they are.
+  void include(const Simulation& simulation, const std::string& fit,
+               std::span<const physics::Pose> poses);
 };
 
 // True when the scene's camera must know the whole motion before the first picture.
