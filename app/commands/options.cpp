@@ -35,8 +35,9 @@ std::vector<std::string> wholeLibrary() {
   return names;
 }
 
-void addScene(CLI::App& command, CommonOptions& options) {
-  command.add_option("SCENE", options.scene, "A scene of the library (dbd list) or a .toml file")
+CLI::Option* addScene(CLI::App& command, CommonOptions& options) {
+  return command
+      .add_option("SCENE", options.scene, "A scene of the library (dbd list) or a .toml file")
       ->required();
 }
 

@@ -12,7 +12,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace app {
 
@@ -36,7 +37,7 @@ struct CommonOptions {
 // Every scene of the library; throws InputError where there is none.
 std::vector<std::string> wholeLibrary();
 
-void addScene(CLI::App& command, CommonOptions& options);
+CLI::Option* addScene(CLI::App& command, CommonOptions& options);  // required
 // -o --threads --progress --quiet; `folder` says what -o is without being given.
 void addOutput(CLI::App& command, CommonOptions& options, const std::string& folder = "out/NAME");
 void addOverrides(CLI::App& command, CommonOptions& options);  // --set

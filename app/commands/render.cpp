@@ -12,6 +12,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/picture_options.h"
 #include "app/run/frame_range.h"
+#include "app/run/motion.h"
 #include "app/run/render_run.h"
 #include "app/trust/trust_chart.h"
 #include "render/film.h"
@@ -23,7 +24,7 @@ namespace {
 struct RenderOptions {
   CommonOptions common;
   PictureOptions picture;
-  std::string frames = ":";
+  std::string frames = ":", from;
   std::vector<std::string> overlays;
   bool video = false, hud = false, trust = false, fresh = false, resume = false;
 };
@@ -59,6 +60,7 @@ RenderJob makeJob(const RenderOptions& options, const scenes::Scene& scene) {
   job.frames = parseFrameRange(options.frames, scene.frameCount());
   job.folder = options.common.outputFolder(scene.name);
   job.threads = options.common.threadCount();
+  job.from = options.from;
   job.fresh = options.fresh;
   job.progress = options.common.progressMode();
   return job;
@@ -99,11 +101,8 @@ std::string summary(const scenes::Scene& scene, const RenderJob& job, const Rend
   const Json& seconds = result.record.seconds;
   std::string text = fmt::format("{}: {} frames drawn", scene.name, result.drawn);
   if (result.kept > 0) text += fmt::format(", {} kept from before", result.kept);
-  if (const double camera = seconds.value("camera", 0.0); camera >= 0.005) {
-    text += fmt::format("; find the camera {:.2f} s", camera);
-  }
   text += fmt::format(
-      "; simulate {:.2f} s, draw {:.2f} s, write {:.2f} s on {} threads, {:.2f} s in all\n",
+      "; simulate {:.2f} s, draw {:.2f} s, write {:.2f} s in {} processes, {:.2f} s in all\n",
       seconds.value("simulate", 0.0), seconds.value("draw", 0.0), seconds.value("write", 0.0),
       job.threads, seconds.value("wall", 0.0));
   for (const Json& verdict : result.record.expectations) {
@@ -117,13 +116,26 @@ std::string summary(const scenes::Scene& scene, const RenderJob& job, const Rend
   return text;
 }
 
+// The scene that is named, or else the one that the motion was made of, with its overrides.
+scenes::Scene readScene(const RenderOptions& options) {
+  if (!options.common.scene.empty()) return options.common.readScene();
+  if (options.from.empty()) throw scenes::InputError("SCENE or --from F is required");
+  const Json about = Motion::open(options.from).about();
+  CommonOptions common = options.common;
+  common.scene = about.value("path", "");
+  common.overrides = about.value("scene", Json::object()).value("overrides", common.overrides);
+  common.overrides.insert(common.overrides.end(), options.common.overrides.begin(),
+                          options.common.overrides.end());
+  return common.readScene();
+}
+
 ExitCode renderScene(const RenderOptions& options) {
-  scenes::Scene scene = options.common.readScene();
+  scenes::Scene scene = readScene(options);
   RenderJob job = makeJob(options, scene);
   if (options.video) requireFfmpeg("--video");
   std::optional<Trust> trust;
   if (options.trust) {
-    const TrustPlan plan = planTrust(options.common.scene, options.common.overrides);
+    const TrustPlan plan = planTrust(scene.path, scene.overrides);
     scene = plan.scene;  // at the accuracy that is judged
     trust = measureTrust(plan, job.threads, job.progress);
     job.view.hud = true;
@@ -175,7 +187,12 @@ void addViewOptions(CLI::App& command, RenderOptions& options) {
 void addRender(CLI::App& line, Action& action) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = line.add_subcommand("render", "Simulate a scene and draw its frames as PNG");
-  addScene(*command, options->common);
+  addScene(*command, options->common)->required(false);
+  command
+      ->add_option("--from", options->from,
+                   "Draw this motion instead of simulating; SCENE may be left out, or say how it "
+                   "looks")
+      ->type_name("F.npz");
   command->add_flag("--video", options->video, "Also make DIR/NAME.mp4");
   addViewOptions(*command, *options);
   CLI::Option* resume = command->add_flag(

@@ -9,6 +9,7 @@
 #include "app/base/csv.h"
 #include "app/base/output_file.h"
 #include "app/commands/commands.h"
+#include "app/run/chosen_motion.h"
 #include "app/run/play.h"
 #include "app/run/run_record.h"
 #include "app/trust/steps_chart.h"
@@ -19,11 +20,13 @@ namespace {
 
 struct SimulateOptions {
   CommonOptions common;
-  std::string trajectory, metrics, stepsChart;
+  std::string trajectory, metrics, motion, stepsChart;
 };
 
 // What a run leaves behind, in the order the frames come.
 struct Recording {
+  std::optional<OutputFile> trajectory;
+  std::optional<Motion> motion;
   std::vector<scenes::FrameMetrics> metrics;
   std::vector<StageSeconds> seconds;
   std::vector<std::string> hashes;
@@ -31,10 +34,11 @@ struct Recording {
 };
 
 PlayEnd playAndRecord(scenes::Simulation& simulation, scenes::Checker& checker, Progress& progress,
-                      OutputFile* trajectory, Recording& recording) {
+                      Recording& recording) {
   return play(simulation, simulation.scene().frameCount(), [&](double stepSeconds) {
     const Stopwatch watch;
-    if (trajectory != nullptr) trajectory->write(trajectoryRows(simulation));
+    if (recording.trajectory) recording.trajectory->write(trajectoryRows(simulation));
+    if (recording.motion) recording.motion->append(simulation.moment());
     const double write = watch.seconds();
     recording.metrics.push_back(simulation.metrics());
     recording.hashes.push_back(hexadecimal(simulation.stateHash()));
@@ -46,10 +50,10 @@ PlayEnd playAndRecord(scenes::Simulation& simulation, scenes::Checker& checker, 
 }
 
 // Frames that an earlier render left in the folder stay good when the states are the same.
-void writeRunRecord(const scenes::Scene& scene, RunRecord record, const Recording& recording,
-                    const PlayEnd& end, const scenes::Checker& checker,
+void writeRunRecord(RunRecord record, const Recording& recording, const PlayEnd& end,
                     const std::filesystem::path& folder) {
   const std::optional<RunRecord> earlier = readRecord(folder);
+  const Json expectations = record.expectations;
   if (earlier && earlier->sameStates(record) && !earlier->picture.is_null()) record = *earlier;
   record.stateHashes = recording.hashes;
   record.accuracy = Json();
@@ -60,7 +64,7 @@ void writeRunRecord(const scenes::Scene& scene, RunRecord record, const Recordin
     record.seconds = {{"simulate", recording.simulateSeconds}};
     record.finished = end.code == ExitCode::kDone;
   }
-  if (end.code == ExitCode::kDone) record.expectations = describeVerdicts(checker.verdicts());
+  if (end.code == ExitCode::kDone) record.expectations = expectations;
   writeRecord(record, folder);
 }
 
@@ -89,13 +93,26 @@ void tell(const SimulateOptions& options, const scenes::Scene& scene, const Reco
   if (options.common.hash) say(recording.hashes.back() + "\n");
 }
 
+// Opened first: a long run must not end in vain.
+void openRecording(const SimulateOptions& options, const scenes::Simulation& start,
+                   Recording& recording) {
+  if (!options.trajectory.empty()) {
+    recording.trajectory.emplace(options.trajectory);
+    recording.trajectory->write(trajectoryHeader());
+  }
+  if (!options.motion.empty()) {
+    const int frames = start.scene().frameCount();
+    recording.motion.emplace(Motion::create(options.motion, start, frames, Motion::Keep::kAll));
+  }
+}
+
 ExitCode simulate(const SimulateOptions& options) {
   if (options.trajectory == "-" && options.metrics == "-") {
     throw scenes::InputError("--trajectory - and --metrics -: only one table fits standard output");
   }
   const ProgressMode progressMode = options.common.progressMode();
   const scenes::Scene scene = options.common.readScene();
-  const RunRecord record = makeRecord(scene);
+  RunRecord record = makeRecord(scene);
   noteWarnings(record);
   scenes::Simulation simulation(scene);
   simulation.setThreads(options.common.threadCount());
@@ -103,26 +120,26 @@ ExitCode simulate(const SimulateOptions& options) {
   if (!options.stepsChart.empty()) steps.emplace(simulation);
   const std::filesystem::path folder = options.common.outputFolder(scene.name);
   makeFolder(folder);
-  std::optional<OutputFile> trajectory, metrics;  // opened first: a long run must not end in vain
-  if (!options.trajectory.empty()) trajectory.emplace(options.trajectory);
+  Recording recording;
+  openRecording(options, simulation, recording);
+  std::optional<OutputFile> metrics;
   if (!options.metrics.empty()) metrics.emplace(options.metrics);
 
   scenes::Checker checker(scene);
   Progress progress(progressMode, scene.name, "simulating", scene.frameCount());
-  Recording recording;
-  if (trajectory) trajectory->write(trajectoryHeader());
-  const PlayEnd end =
-      playAndRecord(simulation, checker, progress, trajectory ? &*trajectory : nullptr, recording);
+  const PlayEnd end = playAndRecord(simulation, checker, progress, recording);
   if (end.code == ExitCode::kInterrupted) {
     note(fmt::format("dbd: interrupted at frame {}; nothing was written\n", simulation.frame()));
     return end.code;
   }
   progress.finish();
+  if (end.code == ExitCode::kDone) record.expectations = describeVerdicts(checker.verdicts());
   if (metrics) metrics->write(metricsTable(recording.metrics, recording.seconds));
-  if (trajectory) trajectory->commit();
+  if (recording.trajectory) recording.trajectory->commit();
+  if (recording.motion) recording.motion->commit(describeMotion(scene, record));
   if (metrics) metrics->commit();
   if (steps) steps->write(options.stepsChart);
-  writeRunRecord(scene, record, recording, end, checker, folder);
+  writeRunRecord(scene, record, recording, end, folder);
   tell(options, scene, recording);
   if (!end.problem.empty()) note("dbd: " + end.problem + "\n");
   return end.code;
@@ -138,6 +155,10 @@ void addSimulate(CLI::App& line, Action& action) {
       ->add_option("--trajectory", options->trajectory,
                    "Table of every body in every frame; - is standard output")
       ->type_name("F.csv");
+  command
+      ->add_option("--motion", options->motion,
+                   "The whole motion, for `dbd render --from` and for numpy.load")
+      ->type_name("F.npz");
   command
       ->add_option("--metrics", options->metrics,
                    "Table of energies, momenta, errors and times per frame; - is standard output")

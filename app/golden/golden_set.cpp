@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <fstream>
 
-#include "app/base/interrupt.h"
 #include "app/base/output_file.h"
 #include "app/run/open_renderer.h"
 #include "app/run/play.h"
-#include "app/run/render_run.h"
 #include "app/run/run_record.h"
 #include "render/picture_hash.h"
+#include "scenes/moment.h"
 #include "scenes/view/view.h"
 
 namespace app {
@@ -21,28 +20,43 @@ namespace {
 
 constexpr const char* kFile = "golden.json";
 
+// Simulates once, and keeps of it what the pictures are of: a camera that fits the motion has to
+// know all of it before the first.
 class GoldenDrawing {
  public:
-  GoldenDrawing(const scenes::Scene& scene, const scenes::MotionBounds& bounds)
-      : simulation_(scene),
-        bounds_(bounds),
-        renderer_(openRenderer(
-            {scene.golden.width, scene.golden.height, render::Quality::kStandard, ""})) {
+  explicit GoldenDrawing(const scenes::Scene& scene) : simulation_(scene) {
     options_.hud = scene.golden.hud;
     options_.overlays = scene.overlays;
     options_.aspect = static_cast<double>(scene.golden.width) / scene.golden.height;
   }
 
-  GoldenRun run(int frames) {
-    try {
-      run_.problem = play(simulation_, frames, [&](double) { visit(); }).problem;
-    } catch (const CheckFailed& error) {
-      run_.problem = error.what();
-    }
-    const bool fits = scenes::needsMotionBounds(simulation_.scene());
-    run_.motion = recorder_.take(fits ? std::optional(bounds_) : std::nullopt);
+  // False: a signal came before all was known.
+  bool simulate(int frames, ProgressMode mode) {
+    Progress progress(mode, simulation_.scene().name, "simulating", frames);
+    const PlayEnd end = play(simulation_, frames, [&](double) {
+      visit();
+      progress.advance();
+    });
+    if (end.code == ExitCode::kInterrupted) return false;
+    progress.finish();
+    run_.problem = end.problem;
     for (physics::BodyId b = 1; b < simulation_.world().bodyCount(); ++b) {
       run_.bodyNames.push_back(simulation_.bodyName(b));
+    }
+    return true;
+  }
+
+  GoldenRun draw(const std::optional<scenes::MotionBounds>& approved) {
+    const scenes::Scene& scene = simulation_.scene();
+    const scenes::MotionBounds bounds = approved.value_or(bounds_);
+    const bool fits = scenes::needsMotionBounds(scene);
+    run_.motion = recorder_.take(fits ? std::optional(bounds) : std::nullopt);
+    const auto renderer =
+        openRenderer({scene.golden.width, scene.golden.height, render::Quality::kStandard, ""});
+    try {
+      for (const scenes::Moment& moment : moments_) drawFrame(moment, bounds, *renderer);
+    } catch (const CheckFailed& error) {
+      run_.problem = error.what();
     }
     return std::move(run_);
   }
@@ -50,22 +64,30 @@ class GoldenDrawing {
  private:
   void visit() {
     if (options_.hud) history_.push_back(simulation_.metrics());
+    bounds_.include(simulation_);
     const std::vector<int>& wanted = simulation_.scene().golden.frames;
     const bool isGolden = std::binary_search(wanted.begin(), wanted.end(), simulation_.frame());
     recorder_.observe(simulation_, isGolden);
-    if (!isGolden) return;
-    const render::Picture picture = scenes::view(simulation_, bounds_, options_, history_);
+    if (isGolden) moments_.push_back(simulation_.moment());
+  }
+
+  void drawFrame(const scenes::Moment& moment, const scenes::MotionBounds& bounds,
+                 render::Renderer& renderer) {
+    simulation_.show(moment);
+    const auto end = options_.hud ? history_.begin() + moment.frame + 1 : history_.end();
+    const render::Picture picture =
+        scenes::view(simulation_, bounds, options_, {history_.begin(), end});
     run_.frames.push_back(
-        {simulation_.frame(),
+        {moment.frame,
          {hexadecimal(simulation_.stateHash()), hexadecimal(render::pictureHash(picture))},
-         drawFrame(*renderer_, simulation_.frame(), picture)});
+         app::drawFrame(renderer, moment.frame, picture)});
   }
 
   scenes::Simulation simulation_;
-  const scenes::MotionBounds& bounds_;
+  scenes::MotionBounds bounds_;
   scenes::ViewOptions options_;
-  std::unique_ptr<render::Renderer> renderer_;
   std::vector<scenes::FrameMetrics> history_;
+  std::vector<scenes::Moment> moments_;  // of the golden frames
   MotionRecorder recorder_;
   GoldenRun run_;
 };
@@ -88,9 +110,9 @@ GoldenRun drawGoldenFrames(const scenes::Scene& scene,
   const int frames = 1 + scene.golden.frames.back();
   // The camera fits the motion up to the last golden frame: early frames must not cost the whole
   // run.
-  const scenes::MotionBounds fitted = bounds ? *bounds : findBounds(scene, frames, progress);
-  if (interrupted()) return {};  // the camera has not seen it all
-  return GoldenDrawing(scene, fitted).run(frames);
+  GoldenDrawing drawing(scene);
+  if (!drawing.simulate(frames, progress)) return {};
+  return drawing.draw(bounds);
 }
 
 std::filesystem::path goldenImage(const std::filesystem::path& folder, int frame) {

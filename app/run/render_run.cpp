@@ -9,19 +9,14 @@
 #include "app/base/interrupt.h"
 #include "app/base/output_file.h"
 #include "app/base/stopwatch.h"
+#include "app/run/chosen_motion.h"
+#include "app/run/crew.h"
 #include "app/run/frame_folder.h"
-#include "app/run/open_renderer.h"
-#include "app/run/pipeline.h"
-#include "render/png.h"
+#include "app/run/painter.h"
 
 namespace app {
 
 namespace {
-
-render::Renderer::Info rendererInfo() {
-  constexpr int kSide = 16;
-  return openRenderer({kSide, kSide, render::Quality::kDraft, ""})->info();
-}
 
 // Frames that cost somebody hours are not ours to delete.
 [[noreturn]] void refuse(const FrameFolder& frames, const std::string& why) {
@@ -59,121 +54,159 @@ bool isComplete(const FrameFolder& frames, const RenderJob& job, const RunRecord
          });
 }
 
-// One run from the first frame to the last one wanted.
+// One run over the frames that are wanted.
 class Drawing {
  public:
   Drawing(const scenes::Scene& scene, const RenderJob& job, const FrameFolder& frames,
-          const scenes::MotionBounds& bounds)
+          RenderResult& result)
       : job_(job),
         frames_(frames),
-        bounds_(bounds),
+        result_(result),
         simulation_(scene),
         checker_(scene),
-        progress_(job.progress, scene.name, "rendering", static_cast<int>(job.frames.size())),
-        pipeline_(job.renderer, job.threads, [this](int frame, const render::Image& image) {
-          render::writePng(image, frames_.file(frame));
-          progress_.advance();
-        }) {}
+        motion_(chooseMotion(simulation_, job, result.record)),
+        painter_(simulation_, motion_.motion, job, frames),
+        crew_(
+            std::min(job.threads, static_cast<int>(job.frames.size())),
+            [this](const std::string& task) { return painter_.draw(task); },
+            [this](int, const std::string& answer) { take(Json::parse(answer)); }) {}
 
-  void run(RenderResult& result) {
+  void run() {
     try {
-      playAndDraw(result);
+      if (!fits()) startDrawing();
+      result_.record.accuracy = Json();
+      if (motion_.isWhole) {
+        showAgain();
+      } else {
+        simulate();
+      }
+      draw();
     } catch (const CheckFailed& error) {
-      result.end.code = ExitCode::kCheckFailed;
-      result.end.problem = simulation_.scene().name + ": " + error.what();
+      result_.end.code = ExitCode::kCheckFailed;
+      result_.end.problem = simulation_.scene().name + ": " + error.what();
     }
-    const bool whole = result.end.frames == simulation_.scene().frameCount();
-    if (whole) result.record.expectations = describeVerdicts(checker_.verdicts());
-    result.record.finished = result.end.code == ExitCode::kDone;
-    result.record.accuracy = Json();
-    for (const scenes::FrameMetrics& frame : history_) {
-      addAccuracy(simulation_.scene(), frame.accuracy, result.record.accuracy);
-    }
-    addSeconds(result.record);
+    result_.record.finished = result_.end.code == ExitCode::kDone;
   }
 
  private:
-  void playAndDraw(RenderResult& result) {
-    result.end = play(simulation_, job_.frames.back() + 1,
-                      [&](double stepSeconds) { visit(stepSeconds, result); });
-    if (result.end.code == ExitCode::kInterrupted) return pipeline_.abandon();
-    pipeline_.finish();
-    progress_.finish();
+  bool fits() const { return scenes::needsMotionBounds(simulation_.scene()); }
+
+  void startDrawing() {
+    progress_.emplace(job_.progress, simulation_.scene().name, "rendering",
+                      static_cast<int>(job_.frames.size()));
   }
 
-  void visit(double stepSeconds, RenderResult& result) {
-    simulateSeconds_ += stepSeconds;
-    checker_.observe(simulation_);
-    const bool isAccurate = simulation_.scene().settings.accuracy.has_value();
-    if (job_.view.hud || isAccurate) history_.push_back(simulation_.metrics());
-    const int frame = simulation_.frame();
-    const bool same = agreesWithRecord(frame, result.record);
-    const bool wanted = std::binary_search(job_.frames.begin(), job_.frames.end(), frame);
-    if (!same && frames_.count() > 0) {
+  // Every frame is drawn as soon as it is there, unless the camera has to see all of them first.
+  void simulate() {
+    const scenes::Scene& scene = simulation_.scene();
+    const int frames = framesNeeded(scene, job_);
+    if (fits()) simulation_.setThreads(job_.threads);  // nobody draws yet
+    Progress stepping(fits() ? job_.progress : ProgressMode::kNone, scene.name, "simulating",
+                      frames);
+    double seconds = 0;
+    result_.end = play(simulation_, frames, [&](double stepSeconds) {
+      seconds += stepSeconds;
+      checker_.observe(simulation_);
+      const scenes::Moment moment = simulation_.moment();
+      motion_.motion.append(moment);
+      addAccuracy(scene, moment.metrics.accuracy, result_.record.accuracy);
+      include(simulation_.frame(), simulation_.stateHash(), simulation_.world().bodies().pose);
+      stepping.advance();
+    });
+    result_.record.addSeconds("simulate", seconds);
+    if (result_.end.code == ExitCode::kInterrupted) return;
+    if (fits()) stepping.finish();
+    if (result_.end.frames == scene.frameCount()) {
+      result_.record.expectations = describeVerdicts(checker_.verdicts());
+    }
+    motion_.motion.commit(describeMotion(simulation_.scene(), result_.record));
+  }
+
+  void showAgain() {
+    const Motion& motion = motion_.motion;
+    const int frames = std::min(motion.frames(), framesNeeded(simulation_.scene(), job_));
+    for (int frame = 0; frame < frames; ++frame) {
+      const scenes::Moment moment = motion.moment(frame);
+      addAccuracy(simulation_.scene(), moment.metrics.accuracy, result_.record.accuracy);
+      include(frame, moment.stateHash, moment.poses);
+    }
+    result_.end.frames = frames;
+    result_.record.expectations = motion.about().value("expectations", Json::array());
+  }
+
+  void include(int frame, std::uint64_t stateHash, std::span<const physics::Pose> poses) {
+    bounds_.include(simulation_, simulation_.scene().camera.fit, poses);
+    if (!agreesWithRecord(frame, stateHash) && frames_.count() > 0) {
       refuse(frames_, fmt::format("of a run whose states differ from frame {} on, though scene, "
                                   "settings and program are the same (did an asset change?).",
                                   frame));
     }
-    if (!wanted) return;
-    if (isDrawn(frames_, job_, frame)) {
-      ++result.kept;
-      progress_.advance();
-      return;
-    }
-    ++result.drawn;
-    const Stopwatch watch;
-    render::Picture picture = scenes::view(simulation_, bounds_, job_.view, history_);
-    viewSeconds_ += watch.seconds();
-    pipeline_.draw(frame, std::move(picture));
+    if (!fits()) ask(frame);
+    crew_.pump();
   }
 
-  bool agreesWithRecord(int frame, RunRecord& record) const {
-    if (static_cast<int>(record.stateHashes.size()) <= frame) record.stateHashes.resize(frame + 1);
-    const std::string now = hexadecimal(simulation_.stateHash());
-    const std::string before = std::exchange(record.stateHashes[frame], now);
+  bool agreesWithRecord(int frame, std::uint64_t stateHash) {
+    std::vector<std::string>& hashes = result_.record.stateHashes;
+    if (static_cast<int>(hashes.size()) <= frame) hashes.resize(frame + 1);
+    const std::string now = hexadecimal(stateHash);
+    const std::string before = std::exchange(hashes[frame], now);
     return before.empty() || before == now;
   }
 
-  void addSeconds(RunRecord& record) const {
-    const DrawSeconds drawing = pipeline_.seconds();
-    record.addSeconds("simulate", simulateSeconds_);
-    record.addSeconds("view", viewSeconds_);
-    record.addSeconds("draw", drawing.draw);
-    record.addSeconds("write", drawing.write);
+  void draw() {
+    if (result_.end.code != ExitCode::kInterrupted && fits()) {
+      startDrawing();
+      for (int frame = 0; frame < result_.end.frames; ++frame) ask(frame);
+    }
+    if (result_.end.code == ExitCode::kInterrupted || !crew_.finish()) {
+      result_.end.code = ExitCode::kInterrupted;
+      return crew_.abandon();
+    }
+    progress_->finish();
+  }
+
+  void ask(int frame) {
+    if (!std::binary_search(job_.frames.begin(), job_.frames.end(), frame)) return;
+    if (frames_.has(frame, job_.renderer.width, job_.renderer.height)) {
+      ++result_.kept;
+      progress_->advance();
+      return;
+    }
+    ++result_.drawn;
+    crew_.ask(frame, Painter::task(frame, bounds_));
+  }
+
+  void take(const Json& seconds) {
+    for (const auto& [stage, spent] : seconds.items()) {
+      result_.record.addSeconds(stage, spent.get<double>());
+    }
+    progress_->advance();
   }
 
   const RenderJob& job_;
   const FrameFolder& frames_;
-  const scenes::MotionBounds& bounds_;
+  RenderResult& result_;
   scenes::Simulation simulation_;
   scenes::Checker checker_;
-  std::vector<scenes::FrameMetrics> history_;  // for the HUD
-  double simulateSeconds_ = 0, viewSeconds_ = 0;
-  Progress progress_;
-  Pipeline pipeline_;  // last: its threads use the others
+  ChosenMotion motion_;
+  scenes::MotionBounds bounds_;
+  Painter painter_;
+  std::optional<Progress> progress_;  // of drawing
+  Crew crew_;                         // last: its processes begin with the others as they are
 };
 
 }  // namespace
-
-scenes::MotionBounds findBounds(const scenes::Scene& scene, int frames, ProgressMode mode) {
-  scenes::MotionBounds bounds;
-  if (!scenes::needsMotionBounds(scene)) return bounds;
-  scenes::Simulation simulation(scene);
-  Progress progress(mode, scene.name, "finding the camera", frames);
-  play(simulation, frames, [&](double) {
-    bounds.include(simulation);
-    progress.advance();
-  });
-  if (!interrupted()) progress.finish();
-  return bounds;
-}
 
 RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job) {
   RenderResult result;
   result.record = makeRecord(scene);
   noteWarnings(result.record);
-  result.record.picture =
-      describePicture(job.renderer, rendererInfo(), job.view.hud, job.view.overlays);
+  const std::optional<render::Renderer::Info> info = askRendererInfo();
+  if (!info) {
+    result.end.code = ExitCode::kInterrupted;
+    return result;
+  }
+  result.record.picture = describePicture(job.renderer, *info, job.view.hud, job.view.overlays);
   if (job.view.trustedUntil) result.record.picture["trusted_until"] = *job.view.trustedUntil;
   const FrameFolder frames(job.folder);
   openFolder(frames, job, result);
@@ -184,13 +217,7 @@ RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job) {
   result.record.finished = false;
   writeRecord(result.record, job.folder);
   const Stopwatch watch;
-  const scenes::MotionBounds bounds = findBounds(scene, scene.frameCount(), job.progress);
-  if (scenes::needsMotionBounds(scene)) result.record.addSeconds("camera", watch.seconds());
-  if (interrupted()) {
-    result.end.code = ExitCode::kInterrupted;
-    return result;
-  }
-  Drawing(scene, job, frames, bounds).run(result);
+  Drawing(scene, job, frames, result).run();
   result.record.addSeconds("wall", watch.seconds());
   writeRecord(result.record, job.folder);
   return result;

@@ -18,7 +18,8 @@ struct RenderJob {
   std::vector<int> frames;  // ascending
   std::filesystem::path folder;
   int threads = 1;
-  bool fresh = false;  // draw all again, whatever the folder holds
+  std::filesystem::path from;  // a motion to draw; empty: the scene is simulated
+  bool fresh = false;          // draw all again, whatever the folder holds
   ProgressMode progress = ProgressMode::kNone;
 };
 
@@ -28,13 +29,12 @@ struct RenderResult {
   int drawn = 0, kept = 0;  // frames
 };
 
-// Frames that the folder holds already are kept when run.json says that the same program drew them
-// from the same scene with the same settings; the scene is simulated again, which gives the same
-// states. Throws InputError, and leaves the folder as it is, where it holds frames of another run
-// and `fresh` is not asked for.
+// The scene is simulated once, into motion.npz of the folder, and drawn from there. Frames that the
+// folder holds already are kept when run.json says that the same program drew them from the same
+// scene with the same settings, and so is the motion. Throws InputError, and leaves the folder as
+// it is, where it holds frames of another run and `fresh` is not asked for.
+//
+// Forks: to be called while the program has one thread and no graphics context.
 RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job);
-
-// The bounds of the whole motion, where the camera of the scene wants them.
-scenes::MotionBounds findBounds(const scenes::Scene& scene, int frames, ProgressMode progress);
 
 }  // namespace app

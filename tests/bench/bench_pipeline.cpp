@@ -1,5 +1,5 @@
-// A whole rendered frame: stepping, view, drawing and PNG writing, overlapped as `dbd render` does
-// it.
+// A whole rendered frame: stepping, view, drawing on threads and PNG writing, overlapped as figures
+// do it.
 #include <benchmark/benchmark.h>
 #include <stdlib.h>
 

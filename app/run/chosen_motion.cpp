@@ -1,0 +1,79 @@
+// Which motion a run draws: one that is there, or a new one.
+#include "app/run/chosen_motion.h"
+
+#include <fmt/format.h>
+
+namespace app {
+
+namespace {
+
+constexpr const char* kMotionFile = "motion.npz";
+
+bool showsContacts(const scenes::Overlays& overlays) {
+  return overlays.contacts || overlays.impulses || overlays.vectors;
+}
+
+Motion openGiven(const scenes::Simulation& start, const RenderJob& job) {
+  Motion motion = Motion::open(job.from);
+  motion.fitTo(start);
+  if (job.frames.back() >= motion.frames()) {
+    throw scenes::InputError(fmt::format("{}: frame {} is wanted, and it holds {} frames",
+                                         job.from.string(), job.frames.back(), motion.frames()));
+  }
+  if (showsContacts(job.view.overlays) && !motion.hasContacts()) {
+    throw scenes::InputError(
+        job.from.string() +
+        ": contacts are to be drawn, and it holds none; `dbd simulate --motion` keeps them");
+  }
+  return motion;
+}
+
+// What an earlier run of the same inputs left behind, if it is enough.
+std::optional<Motion> openEarlier(const scenes::Simulation& start, const RenderJob& job,
+                                  const RunRecord& record) {
+  const std::filesystem::path file = job.folder / kMotionFile;
+  if (job.fresh || !std::filesystem::is_regular_file(file)) return std::nullopt;
+  try {
+    Motion motion = Motion::open(file);
+    const Json& about = motion.about();
+    const bool same = about.value("program", Json()) == record.program &&
+                      about.value("scene", Json()) == record.scene &&
+                      about.value("settings", Json()) == record.settings;
+    if (!same) return std::nullopt;
+    motion.fitTo(start);
+    const bool enough = motion.frames() >= framesNeeded(start.scene(), job) &&
+                        (motion.hasContacts() || !showsContacts(job.view.overlays));
+    if (!enough) return std::nullopt;
+    return motion;
+  } catch (const scenes::InputError&) {
+    return std::nullopt;  // it is made again
+  }
+}
+
+}  // namespace
+
+ChosenMotion chooseMotion(const scenes::Simulation& start, const RenderJob& job,
+                          const RunRecord& record) {
+  if (!job.from.empty()) return {openGiven(start, job), true};
+  if (std::optional<Motion> earlier = openEarlier(start, job, record)) {
+    return {std::move(*earlier), true};
+  }
+  const auto keep =
+      showsContacts(job.view.overlays) ? Motion::Keep::kContacts : Motion::Keep::kPoses;
+  return {Motion::create(job.folder / kMotionFile, start, framesNeeded(start.scene(), job), keep),
+          false};
+}
+
+int framesNeeded(const scenes::Scene& scene, const RenderJob& job) {
+  return scenes::needsMotionBounds(scene) ? scene.frameCount() : job.frames.back() + 1;
+}
+
+Json describeMotion(const scenes::Scene& scene, const RunRecord& record) {
+  return {{"path", scene.path},
+          {"program", record.program},
+          {"scene", record.scene},
+          {"settings", record.settings},
+          {"expectations", record.expectations}};
+}
+
+}  // namespace app

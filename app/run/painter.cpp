@@ -1,0 +1,72 @@
+// What a drawing process does: a frame of a motion into its file.
+#include "app/run/painter.h"
+
+#include "app/base/stopwatch.h"
+#include "app/commands/exit_code.h"
+#include "app/run/crew.h"
+#include "app/run/open_renderer.h"
+#include "render/png.h"
+
+namespace app {
+
+namespace {
+
+Json numbers(const physics::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+physics::Vec3 vectorFrom(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+}  // namespace
+
+std::string Painter::task(int frame, const scenes::MotionBounds& bounds) {
+  return Json{{"frame", frame}, {"low", numbers(bounds.low)}, {"high", numbers(bounds.high)}}
+      .dump();
+}
+
+std::string Painter::draw(const std::string& task) {
+  const Json asked = Json::parse(task);
+  const int frame = asked.at("frame").get<int>();
+  if (!renderer_) renderer_ = openRenderer(job_.renderer);
+  Stopwatch watch;
+  const render::Picture picture =
+      view(frame, {vectorFrom(asked.at("low")), vectorFrom(asked.at("high"))});
+  const double view = watch.lap();
+  const render::Image& image = drawFrame(*renderer_, frame, picture);
+  const double draw = watch.lap();
+  render::writePng(image, frames_.file(frame));
+  return Json{{"view", view}, {"draw", draw}, {"write", watch.lap()}}.dump();
+}
+
+render::Picture Painter::view(int frame, const scenes::MotionBounds& bounds) {
+  const scenes::Moment moment = motion_.moment(frame);
+  if (!simulation_.show(moment)) {
+    throw CheckFailed("frame " + std::to_string(frame) + " is not finite");
+  }
+  while (job_.view.hud && static_cast<int>(history_.size()) <= frame) {
+    history_.push_back(motion_.moment(static_cast<int>(history_.size())).metrics);
+  }
+  return scenes::view(simulation_, bounds, job_.view, history_);
+}
+
+std::optional<render::Renderer::Info> askRendererInfo() {
+  std::optional<render::Renderer::Info> info;
+  constexpr int kSide = 16;
+  Crew crew(
+      1,
+      [](const std::string&) {
+        const auto renderer = openRenderer({kSide, kSide, render::Quality::kDraft, ""});
+        const render::Renderer::Info told = renderer->info();
+        return Json{told.vendor, told.renderer, told.version}.dump();
+      },
+      [&](int, const std::string& answer) {
+        const Json told = Json::parse(answer);
+        info = render::Renderer::Info{told.at(0).get<std::string>(), told.at(1).get<std::string>(),
+                                      told.at(2).get<std::string>()};
+      });
+  crew.ask(0, "info");
+  crew.finish();
+  return info;
+}
+
+}  // namespace app

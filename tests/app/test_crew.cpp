@@ -1,0 +1,100 @@
+// Processes that work side by side: every task is done once, and no end of a worker is a hang.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <map>
+#include <set>
+#include <thread>
+
+#include "app/commands/exit_code.h"
+#include "app/run/crew.h"
+
+namespace app {
+namespace {
+
+std::string echo(const std::string& task) { return task + " by " + std::to_string(::getpid()); }
+
+TEST(Crew, DoesEveryTaskOnceInProcessesOfItsOwn) {
+  std::map<int, std::string> answers;
+  std::set<std::string> processes;
+  Crew crew(3, echo, [&](int job, const std::string& answer) {
+    EXPECT_TRUE(answers.emplace(job, answer.substr(0, answer.find(' '))).second);
+    processes.insert(answer.substr(answer.rfind(' ') + 1));
+  });
+  for (int job = 0; job < 200; ++job) crew.ask(job, "task" + std::to_string(job));
+  EXPECT_TRUE(crew.finish());
+  ASSERT_EQ(answers.size(), 200u);
+  for (const auto& [job, answer] : answers) EXPECT_EQ(answer, "task" + std::to_string(job));
+  EXPECT_FALSE(processes.contains(std::to_string(::getpid())));
+  EXPECT_GT(processes.size(), 1u);
+}
+
+TEST(Crew, TakesTasksThatAreLargerThanAPage) {
+  std::string told;
+  Crew crew(
+      1, [](const std::string& task) { return task; },
+      [&](int, const std::string& answer) { told = answer; });
+  const std::string large(50000, 'x');
+  crew.ask(0, large);
+  EXPECT_TRUE(crew.finish());
+  EXPECT_EQ(told, large);
+}
+
+// Several fail: the first by its number is told, whichever failed first.
+TEST(Crew, ThrowsWhatTheFirstFailingJobThrew) {
+  Crew crew(
+      2,
+      [](const std::string& task) -> std::string {
+        const int job = std::stoi(task);
+        if (job == 3) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        if (job == 3) throw CheckFailed("job 3");
+        if (job > 3) throw EnvironmentError("job " + task);
+        return task;
+      },
+      [](int, const std::string&) {});
+  for (int job = 0; job < 9; ++job) crew.ask(job, std::to_string(job));
+  try {
+    crew.finish();
+    FAIL() << "nothing was thrown";
+  } catch (const CheckFailed& error) {
+    EXPECT_STREQ(error.what(), "job 3");
+  }
+}
+
+TEST(Crew, ACrashIsAnErrorWithItsFrame) {
+  for (const int signal : {SIGKILL, SIGSEGV}) {
+    int answers = 0;
+    Crew crew(
+        2,
+        [signal](const std::string& task) -> std::string {
+          if (task == "5") {
+            ::signal(signal, SIG_DFL);  // sanitizers have a handler
+            ::raise(signal);
+          }
+          return task;
+        },
+        [&](int, const std::string&) { ++answers; });
+    for (int job = 0; job < 40; ++job) crew.ask(job, std::to_string(job));
+    try {
+      crew.finish();
+      FAIL() << "nothing was thrown";
+    } catch (const EnvironmentError& error) {
+      const std::string told = "drew frame 5 ended with signal " + std::to_string(signal);
+      EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+    }
+    EXPECT_GE(answers, 5);
+  }
+}
+
+TEST(Crew, AbandoningDropsWhatNobodyHasBegun) {
+  int answers = 0;
+  Crew crew(2, echo, [&](int, const std::string&) { ++answers; });
+  crew.pump();
+  EXPECT_EQ(answers, 0);
+  EXPECT_TRUE(crew.finish());
+  crew.abandon();
+}
+
+}  // namespace
+}  // namespace app
