@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/plan/plan.h"
-#include "app/study/study_table.h"
+#include "app/study/numbers.h"
 
 namespace app {
 

@@ -20,28 +20,50 @@ std::string describe(const scenes::Simulation& simulation,
   return text + "; what was written up to this frame is kept";
 }
 
+PlayedStep next(scenes::Simulation& simulation, const PlayEngine* engine) {
+  PlayedStep step;
+  const double processor = processorSeconds();
+  const Stopwatch watch;
+  if (engine == nullptr) {
+    step.report = simulation.advance();
+  } else {
+    engine->step();
+  }
+  step.wall = watch.seconds();
+  step.processor = processorSeconds() - processor;
+  if (engine != nullptr) step.report.notFinite = engine->show();
+  return step;
+}
+
 }  // namespace
 
 PlayEnd play(scenes::Simulation& simulation, int frames,
-             const std::function<void(double stepSeconds)>& visit) {
+             const std::function<bool(const PlayedStep&)>& visit, const PlayEngine* engine) {
   PlayEnd end;
-  double seconds = 0;
+  PlayedStep step;
   while (true) {
-    visit(seconds);
-    if (++end.frames >= frames) return end;
+    const bool goesOn = visit(step);
+    if (++end.frames >= frames || !goesOn) return end;
     if (interrupted()) {
       end.code = ExitCode::kInterrupted;
       return end;
     }
-    const Stopwatch watch;
-    const physics::StepReport report = simulation.advance();
-    seconds = watch.seconds();
-    if (report.notFinite) {
+    step = next(simulation, engine);
+    if (step.report.notFinite) {
       end.code = ExitCode::kCheckFailed;
-      end.problem = describe(simulation, *report.notFinite);
+      end.notFinite = step.report.notFinite;
+      end.problem = describe(simulation, *step.report.notFinite);
       return end;
     }
   }
+}
+
+PlayEnd play(scenes::Simulation& simulation, int frames,
+             const std::function<void(double stepSeconds)>& visit) {
+  return play(simulation, frames, [&](const PlayedStep& step) {
+    visit(step.wall);
+    return true;
+  });
 }
 
 }  // namespace app

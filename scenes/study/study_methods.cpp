@@ -21,7 +21,6 @@ StudyMethod readMethod(TableReader& reader, const std::vector<StudyMethod>& earl
   reader(Field{"name", Unit::kNone, true}, method.name);
   reader(Field{"title", Unit::kNone, true}, method.title);
   reader(Field{"about"}, method.about);
-  reader(Field{"because"}, method.because);
   reader.atMostOne("set", "peer");
   reader(Field{"set"}, method.set);
   reader(Field{"peer"}, method.peer);

@@ -27,7 +27,6 @@ struct StudyMethod {
     kStar
   };
   std::string name, title, about;
-  std::string because;           // why it is the cheaper one where it is, said beside it
   std::vector<std::string> set;  // overrides that choose it
   std::string peer;              // "bullet", "ode": another engine; empty: ours
   std::string color;             // "#rrggbb"

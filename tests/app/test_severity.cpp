@@ -3,9 +3,10 @@
 
 #include <cmath>
 
+#include "app/study/chart.h"
+#include "app/study/numbers.h"
 #include "app/study/severity_search.h"
-#include "app/study/stability_map.h"
-#include "app/study/stability_page.h"
+#include "app/study/stability.h"
 
 namespace app {
 namespace {
@@ -82,6 +83,12 @@ TEST(SeveritySearch, ReportsALevelThatFailsBelowTheBorder) {
   EXPECT_LE(found.trials.size(), static_cast<std::size_t>(kMostTrials));
 }
 
+// Empty: there is no map.
+std::string scriptOf(const StabilityResult& result) {
+  const auto chart = mapOf({&result}, "Family", "map");
+  return chart ? chartScript(*chart) : "";
+}
+
 TEST(SeverityMap, WritesLevelsAsPeopleDo) {
   EXPECT_EQ(levelText(0), "0");
   EXPECT_EQ(levelText(0.49995), "0.49995");
@@ -99,17 +106,17 @@ TEST(SeverityMap, HasABarForEachMethodAndNamesWhatFails) {
   bar.border.holds = 1e4;
   bar.border.fails = 2e4;
   bar.firstFailure.emplace();
-  bar.firstFailure->status = StabilityRun::Status::kFails;
+  bar.firstFailure->status = Trace::Status::kFails;
   bar.firstFailure->failure = {34, 0.5, "overlap 0.2 m, expected <= 0.1 m", "a, b", "contact"};
   result.bars.push_back(bar);
   EXPECT_EQ(borderText(bar), "at 20000: overlap, a, b, frame 34");
-  const std::string script = mapScript({&result}, "Family", "map");
+  const std::string script = scriptOf(result);
   for (const char* part : {"A\\\\_case", "{/:Bold direct}", "'#0072b2'", "overlap, a, b, frame 34",
                            "set output 'map.svg'", "stated: 1000"}) {
     EXPECT_NE(script.find(part), std::string::npos) << part << "\n" << script;
   }
   result.bars.clear();
-  EXPECT_EQ(mapScript({&result}, "Family", "map"), "");
+  EXPECT_EQ(scriptOf(result), "");
 }
 
 TEST(SeverityMap, SaysWhereASearchWasCutShort) {
@@ -129,7 +136,7 @@ TEST(SeverityMap, SaysWhereASearchWasCutShort) {
   EXPECT_NE(severityText(result).find("; cut short"), std::string::npos);
   result.bars[0].border.fails.reset();
   EXPECT_NE(severityText(result).find("holds to 1000, not tried beyond"), std::string::npos);
-  const std::string script = mapScript({&result}, "Family", "map");
+  const std::string script = scriptOf(result);
   EXPECT_EQ(script.find("head filled"), std::string::npos) << "an arrow past the end of the range";
 }
 

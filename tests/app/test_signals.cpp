@@ -159,7 +159,7 @@ TEST_F(Signals, AStudyKilledAtAnyMomentGoesOnToTheSameTable) {
   writeText(folder / "ball.toml", kCase);
   const std::string command = "study accuracy ball.toml --progress none -o ";
   ASSERT_EQ(run(command + "whole").code, 0);
-  const fs::path table = folder / "killed" / "points.csv";
+  const fs::path table = folder / "killed" / "runs.jsonl";
   for (const int signal : {SIGKILL, SIGTERM}) {
     EXPECT_NE(runAndSignal(command + "killed", table, signal), 0);
   }

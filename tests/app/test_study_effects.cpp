@@ -2,7 +2,7 @@
 #include <csignal>
 #include <regex>
 
-#include "app/study/study_effects.h"
+#include "app/study/effects.h"
 #include "program.h"
 
 namespace tests {
@@ -102,7 +102,7 @@ TEST_F(StudyEffects, WhatWasMeasuredIsNotMeasuredAgain) {
 
 TEST_F(StudyEffects, CtrlCEndsItWith130) {
   EXPECT_EQ(runAndSignal("study effects slide.toml -o s --progress none --repeats 1000",
-                         folder / "s" / "points.csv", SIGINT),
+                         folder / "s" / "runs.jsonl", SIGINT),
             130);
 }
 

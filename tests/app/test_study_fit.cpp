@@ -3,10 +3,11 @@
 
 #include <cmath>
 
-#include "app/study/study_asked.h"
-#include "app/study/study_fit.h"
-#include "app/study/study_point.h"
-#include "app/study/study_table.h"
+#include "app/study/accuracy.h"
+#include "app/study/asked.h"
+#include "app/study/cheapest.h"
+#include "app/study/fit.h"
+#include "app/study/store.h"
 
 namespace app {
 namespace {
@@ -55,8 +56,8 @@ TEST(FitOrder, SaysNothingOfTwoPointsOrOfNone) {
   EXPECT_FALSE(fitOrder({{1, NAN}, {0.5, NAN}, {0.25, INFINITY}}, 0, 1));
 }
 
-StudyPoint pointOf(double wall, double error, StudyPoint::Status status = StudyPoint::Status::kOk) {
-  StudyPoint point;
+Trace pointOf(double wall, double error, Trace::Status status = Trace::Status::kOk) {
+  Trace point;
   point.wall = wall;
   point.errors.error = error;
   point.status = status;
@@ -64,10 +65,10 @@ StudyPoint pointOf(double wall, double error, StudyPoint::Status status = StudyP
 }
 
 TEST(Front, KeepsWhatNoOtherPointBeats) {
-  const StudyPoint cheap = pointOf(1, 1), good = pointOf(3, 0.1), beaten = pointOf(4, 0.2),
-                   exploded = pointOf(0.5, 0.01, StudyPoint::Status::kExploded);
-  const std::vector<const StudyPoint*> points{&beaten, &good, &exploded, &cheap};
-  EXPECT_EQ(front(points), (std::vector<const StudyPoint*>{&cheap, &good}));
+  const Trace cheap = pointOf(1, 1), good = pointOf(3, 0.1), beaten = pointOf(4, 0.2),
+              exploded = pointOf(0.5, 0.01, Trace::Status::kExploded);
+  const std::vector<const Trace*> points{&beaten, &good, &exploded, &cheap};
+  EXPECT_EQ(front(points), (std::vector<const Trace*>{&cheap, &good}));
   EXPECT_EQ(cheapest(points, 0.2), &good);
   EXPECT_EQ(cheapest(points, 0.05), nullptr);
 }
@@ -80,15 +81,15 @@ scenes::StudyMethod methodOf(const std::string& name, const std::string& peer, b
   return method;
 }
 
-StudyPoint askedPointOf(double asked, double error) {
-  StudyPoint point = pointOf(1e-3, error);
+Trace askedPointOf(double asked, double error) {
+  Trace point = pointOf(1e-3, error);
   point.key = {"case", "asked", 1, 1, 0, asked};
   return point;
 }
 
 // A case of scale 2 with a method of ours that is asked, and a peer.
-StudyResults resultsOf(double reference, const std::vector<StudyPoint>& points) {
-  StudyResults results;
+CaseResults resultsOf(double reference, const std::vector<Trace>& points) {
+  CaseResults results;
   results.study.name = "case";
   results.study.scale = 2;
   results.study.methods = {methodOf("asked", "", true), methodOf("peer", "bullet", false)};
@@ -100,7 +101,7 @@ StudyResults resultsOf(double reference, const std::vector<StudyPoint>& points) 
 }
 
 TEST(Asked, ThreeTimesWhatWasAskedIsStillDelivered) {
-  const StudyResults results =
+  const CaseResults results =
       resultsOf(1e-5, {askedPointOf(1e-1, 1e-3), askedPointOf(1e-2, 0.06),
                        askedPointOf(1e-3, 0.0061), askedPointOf(1e-6, 1e-4)});
   const std::vector<AskedPoint> asked = askedPoints({&results});
@@ -115,16 +116,16 @@ TEST(Asked, ThreeTimesWhatWasAskedIsStillDelivered) {
 }
 
 TEST(Asked, WhatFailedWasNotDelivered) {
-  StudyPoint point = askedPointOf(1e-1, 0);
-  point.status = StudyPoint::Status::kNotFinite;
-  const StudyResults results = resultsOf(0, {point});
+  Trace point = askedPointOf(1e-1, 0);
+  point.status = Trace::Status::kNotFinite;
+  const CaseResults results = resultsOf(0, {point});
   EXPECT_EQ(askedPoints({&results})[0].verdict, AskedPoint::Verdict::kBeyond);
 }
 
 TEST(Asked, CountsAsOursAtTheGoals) {
-  StudyPoint peer = pointOf(1e-4, 0.01);  // cheaper, and good for 1 % of 2
+  Trace peer = pointOf(1e-4, 0.01);  // cheaper, and good for 1 % of 2
   peer.key = {"case", "peer"};
-  const StudyResults results = resultsOf(0, {askedPointOf(1e-3, 1e-4), peer});
+  const CaseResults results = resultsOf(0, {askedPointOf(1e-3, 1e-4), peer});
   EXPECT_EQ(goalsText({&results}),
             "ours is the cheapest, or alone, at 1 of 2 goals: 1 % and 0.1 % of 1 cases");
 }
@@ -148,21 +149,41 @@ TEST(Asked, AnAccuracyReadsAsItIsWritten) {
   EXPECT_EQ(askedPointOf(1e-6, 0).key.text(), "accuracy 1e-6");
 }
 
-TEST(PointFile, ARowComesBackAsItWas) {
-  StudyPoint point = pointOf(1.25e-3, 3.5e-7, StudyPoint::Status::kExploded);
-  point.key = {"pendulum", "bdf2", 2, 16, 4, 1e-3};
-  point.message = "error 12 m, at the end\nof it";
-  point.errors.last = INFINITY;
-  const std::string row = pointRow(point);
-  const std::vector<StudyPoint> back = parsePoints(pointHeads() + row + row.substr(0, 20));
-  ASSERT_EQ(back.size(), 1u);  // the torn row is left out
-  EXPECT_EQ(back[0].key, point.key);
-  EXPECT_EQ(pointRow(back[0]), row);
+TEST(Store, ALineComesBackAsItWas) {
+  Trace trace = pointOf(1.25e-3, 3.5e-7, Trace::Status::kExploded);
+  trace.key = {"pendulum", "bdf2", 2, 16, 4, 1e-3, "0.5"};
+  trace.message = "error 12 m, at the end\nof it";
+  trace.errors.last = INFINITY;
+  trace.failure = TraceFailure{3, 0.1, "overlap 1 m", "a, b", "contact"};
+  trace.verdicts.push_back({"overlap", "overlap 1 m <= 0.1 m", false, true, 1, 0.1, 0.1, 12});
+  trace.samples = {{{1.0, 2.0}, {}}, {{0.1}}};
+  const Trace back = parseTrace(lineOf(trace));
+  EXPECT_EQ(back.key, trace.key);
+  EXPECT_EQ(back.samples, trace.samples);
+  EXPECT_EQ(back.failure->where(), "a, b, contact");
+  EXPECT_EQ(lineOf(back), lineOf(trace));
+  EXPECT_EQ(pointsTable({back}), pointsTable({trace}));
+  EXPECT_ANY_THROW(parseTrace(lineOf(trace).substr(0, 40)));
+  EXPECT_ANY_THROW(parseTrace("{}"));
 }
 
-TEST(PointFile, RowsOfAnotherFormatAreLeftOut) {
-  EXPECT_TRUE(parsePoints("").empty());
-  EXPECT_TRUE(parsePoints("case,method\npendulum,bdf2\n").empty());
+// Two cases: 1 and 2 ms at 1e-1, 4 and 8 at 1e-3: twice as much for each decade.
+TEST(Glance, SaysWhatTenTimesTheAccuracyCosts) {
+  std::vector<CaseResults> cases;
+  for (const double times : {1.0, 2.0}) {
+    Trace coarse = askedPointOf(1e-1, 1e-3), fine = askedPointOf(1e-3, 1e-4);
+    coarse.wall = 1e-3 * times;
+    fine.wall = 4e-3 * times;
+    cases.push_back(resultsOf(0, {fine, coarse}));
+    cases.back().study.scenePath = "pendulum";
+  }
+  const Glance glance = glanceAt({&cases[0], &cases[1]});
+  ASSERT_EQ(glance.sentences.size(), 1u);
+  EXPECT_EQ(glance.sentences[0],
+            "joints (2 cases): ten times more accurate costs 2 times more; 1.41 ms for a simulated "
+            "second at 1e-1, 5.66 ms at 1e-3; 4 of 4 were delivered; no other engine is as good.");
+  ASSERT_TRUE(glance.chart);
+  EXPECT_EQ(glance.chart->series.size(), 1u);
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+// Numbers as people read them.
+#include "app/study/numbers.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace app {
+
+std::string percentText(double share) { return fmt::format("{:g} %", 100 * share); }
+
+std::string secondsText(double seconds) {
+  if (!std::isfinite(seconds)) return "–";
+  if (seconds >= 1) return fmt::format("{:.3g} s", seconds);
+  if (seconds >= 1e-3) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return fmt::format("{:.3g} µs", 1e6 * seconds);
+}
+
+std::string numberText(double value) {
+  if (!std::isfinite(value)) return "–";
+  return fmt::format("{:.2g}", value);
+}
+
+std::string levelText(double level) {
+  const double size = std::abs(level);
+  if (level == 0 || (size < 99999.5 && size >= 1e-3)) {
+    return size >= 1000 ? fmt::format("{:.0f}", level) : fmt::format("{:.6g}", level);
+  }
+  const int power = static_cast<int>(std::floor(std::log10(size) + 1e-9));
+  return fmt::format("{:.3g}e{}", level / std::pow(10, power), power);
+}
+
+std::string superscript(std::string text) {
+  constexpr std::pair<const char*, const char*> kPowers[] = {{"^2", "²"}, {"^3", "³"}};
+  for (const auto& [plain, raised] : kPowers) {
+    for (std::size_t at = text.find(plain); at != std::string::npos; at = text.find(plain)) {
+      text.replace(at, std::strlen(plain), raised);
+    }
+  }
+  return text;
+}
+
+}  // namespace app
