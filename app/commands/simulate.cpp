@@ -50,8 +50,8 @@ PlayEnd playAndRecord(scenes::Simulation& simulation, scenes::Checker& checker, 
 }
 
 // Frames that an earlier render left in the folder stay good when the states are the same.
-void writeRunRecord(RunRecord record, const Recording& recording, const PlayEnd& end,
-                    const std::filesystem::path& folder) {
+void writeRunRecord(const scenes::Scene& scene, RunRecord record, const Recording& recording,
+                    const PlayEnd& end, const std::filesystem::path& folder) {
   const std::optional<RunRecord> earlier = readRecord(folder);
   const Json expectations = record.expectations;
   if (earlier && earlier->sameStates(record) && !earlier->picture.is_null()) record = *earlier;
