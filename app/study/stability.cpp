@@ -172,6 +172,7 @@ std::vector<StabilityResult> readAll(const StudyOptions& options) {
     try {
       for (StabilityCase& study : scenes::readStabilityCases(word)) {
         if (options.quick && all && !study.quick) continue;
+        study.text = scenes::stabilityScene(study, {}).text;  // with what it includes
         results.push_back({std::move(study), "", {}, {}, {}, {}});
       }
     } catch (const scenes::InputError& error) {

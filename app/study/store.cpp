@@ -137,16 +137,20 @@ struct Row {
   void operator()(const char*, Trace::Status status) { add(statusName(status)); }
 };
 
+const std::string& thisProgram() {
+  static const std::string hash = programHash();
+  return hash;
+}
+
 std::string idOf(const RunKey& key) {
-  return fmt::format("{}\n{}\n{} {} {} {}\n{}", key.study, key.method, key.steps, key.substeps,
+  return fmt::format("{}\n{}\n{} {} {} {}\n{}\n", key.study, key.method, key.steps, key.substeps,
                      key.iterations, key.accuracy, key.level);
 }
 
 }  // namespace
 
 std::string hashInputs(const std::vector<std::string>& parts) {
-  static const std::string program = programHash();
-  std::string all = program;
+  std::string all = thisProgram();
   for (const std::string& part : parts) all += fmt::format("\n{}:{}", part.size(), part);
   return hashText(all);
 }
@@ -164,6 +168,7 @@ std::string lineOf(const Trace& trace) {
     verdictFields(own, verdict);
     json.json["verdicts"].push_back(own.json);
   }
+  json.json["program"] = thisProgram();
   if (!trace.samples.empty()) json.json["samples"] = trace.samples;
   return json.json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -202,16 +207,16 @@ Store::Store(fs::path folder, StoreMode mode, const std::string& job) : mode_(mo
   path_ = job.empty() ? whole : jobs / (job + ".jsonl");
   if (mode != StoreMode::kLook) makeFolder(path_.parent_path());
   std::vector<fs::path> others;
-  if (job.empty() && mode == StoreMode::kCollect && fs::is_directory(jobs)) {
+  if (job.empty() && fs::is_directory(jobs)) {
     for (const fs::directory_entry& entry : fs::directory_iterator(jobs)) {
       if (entry.path().extension() == ".jsonl") others.push_back(entry.path());
     }
   }
   std::sort(others.begin(), others.end());
   if (mode != StoreMode::kFresh) {
-    if (path_ != whole) read(whole);
+    read(whole);
     for (const fs::path& other : others) read(other);
-    read(path_);
+    if (path_ != whole) read(path_);
   }
   if (mode == StoreMode::kLook) return;
   std::string text;
@@ -226,24 +231,26 @@ Store::Store(fs::path folder, StoreMode mode, const std::string& job) : mode_(mo
 void Store::read(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   for (std::string line; std::getline(in, line);) {
+    // How long it took is worth knowing of another program, too.
+    if (mode_ != StoreMode::kLook && line.find(thisProgram()) == std::string::npos) continue;
     try {
       Trace trace = parseTrace(line);
-      const std::string id = idOf(trace.key);
+      const std::string id = idOf(trace.key) + trace.inputs;
       earlier_.insert_or_assign(id, std::move(trace));
-    } catch (const std::exception&) {  // torn by what ended the program, or of another program
+    } catch (const std::exception&) {  // torn by what ended the program
     }
   }
 }
 
 const Trace* Store::find(const RunKey& key, const std::string& inputs) const {
-  const auto found = earlier_.find(idOf(key));
-  if (found == earlier_.end() || found->second.inputs != inputs) return nullptr;
+  const auto found = earlier_.find(idOf(key) + inputs);
+  if (found == earlier_.end()) return nullptr;
   return found->second.status == Trace::Status::kSkipped && runs() ? nullptr : &found->second;
 }
 
 double Store::secondsOf(const RunKey& key) const {
-  const auto found = earlier_.find(idOf(key));
-  return found == earlier_.end() ? 0 : found->second.seconds;
+  const auto found = earlier_.lower_bound(idOf(key));
+  return found == earlier_.end() || found->second.key != key ? 0 : found->second.seconds;
 }
 
 std::optional<Trace> Store::findOr(const RunKey& key, const std::string& inputs,

@@ -15,14 +15,14 @@ namespace app {
 enum class StoreMode {
   kGoOn,     // what is there from the same inputs is not run again
   kFresh,    // everything is
-  kCollect,  // nothing is; what jobs wrote is joined
+  kCollect,  // nothing is run
   kLook,     // nothing is, and nothing is written
 };
 
 class Store {
  public:
-  // `job`: whose own file takes what is new; empty: the folder's. Lines that are torn or not
-  // understood are left out.
+  // `job`: whose own file takes what is new; empty: the folder's, which takes what is in those of
+  // all jobs. Lines that are torn, or of another program, are left out.
   Store(std::filesystem::path folder, StoreMode mode, const std::string& job);
 
   // From the same inputs; null: it is not there, or was skipped.
@@ -46,7 +46,7 @@ class Store {
 
   std::filesystem::path path_;
   StoreMode mode_;
-  std::map<std::string, Trace> earlier_;  // by its key
+  std::map<std::string, Trace> earlier_;  // by key and inputs
   std::mutex mutex_;
   std::atomic<int> reused_ = 0, missing_ = 0;
 };
