@@ -138,6 +138,20 @@ TEST(Plan, NamesIslandsAndWhatTheirSubstepsAreAskedForBy) {
   EXPECT_TRUE(planOf("chain", {"simulation.method=direct"}).islands.empty());
 }
 
+TEST(Plan, NamesTheStepsThatAnAccuracyTakes) {
+  for (const char* scene : {"chain", "stack"}) {
+    const app::Plan plan = planOf(scene, {"simulation.accuracy=1e-3"});
+    for (const app::PlannedIslands& island : plan.islands) {
+      ASSERT_TRUE(island.steps.has_value()) << scene;
+      EXPECT_EQ(island.steps->bodies, island.plan.bodies) << scene;
+      EXPECT_GE(island.steps->steps.accepted, 1) << scene;
+      EXPECT_GT(island.steps->size, 0) << scene;
+      EXPECT_DOUBLE_EQ(island.steps->time, 1.0 / 60) << scene;
+    }
+  }
+  EXPECT_FALSE(planOf("chain").islands.at(0).steps.has_value());
+}
+
 class PlanOf : public testing::TestWithParam<std::string> {};
 
 // No step is measured: that is done above, and would take long for all of them.
@@ -187,9 +201,9 @@ TEST_F(PlanCommand, JsonHasTheDocumentedKeys) {
   }
   ASSERT_FALSE(plan.at("islands").empty());
   for (const json& islands : plan.at("islands")) {
-    for (const char* key :
-         {"count", "first", "bodies", "flies", "trees", "loops", "joints", "ropes", "meshes",
-          "links", "contacts", "soft_contacts", "substeps", "sweeps", "asked_by", "halves"}) {
+    for (const char* key : {"count", "first", "bodies", "flies", "trees", "loops", "joints",
+                            "ropes", "meshes", "links", "contacts", "soft_contacts", "substeps",
+                            "sweeps", "asked_by", "halves", "accuracy"}) {
       EXPECT_TRUE(islands.contains(key)) << key;
     }
   }
