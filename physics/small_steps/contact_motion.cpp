@@ -5,38 +5,23 @@
 
 namespace physics {
 
-void SmallSteps::Impl::toLane(Batch& batch, int slot) {
-  LaneMotion& lane = batch.motions[slot];
-  const Displacement& m = moved[batch.slots[slot]];
-  const Vec3 turn = turnOf(batch.masses[slot], m.theta);
-  for (int k = 0; k < 3; ++k) {
-    lane.u[k] = static_cast<float>(m.u[k]);
-    lane.turn[k] = static_cast<float>(turn[k]);
-  }
-  std::copy(lane.u, lane.u + 3, batch.before[slot].u);
-  std::copy(lane.turn, lane.turn + 3, batch.before[slot].turn);
+LaneBodies SmallSteps::Impl::lanesOf(Batch& batch) const {
+  return {slotOf, batch.motions, batch.before, batch.masses, batch.inverses};
 }
 
-// Only what the contacts changed since: what they leave alone stays as it was, to the last bit.
+void SmallSteps::Impl::toLane(Batch& batch, int slot) {
+  const Displacement& m = moved[batch.slots[slot]];
+  lanesOf(batch).give(slot, m.u, m.theta);
+}
+
 void SmallSteps::Impl::fromLane(Batch& batch, int slot) {
-  const LaneMotion& lane = batch.motions[slot];
-  LaneStart& before = batch.before[slot];
   const BodyId i = batch.slots[slot];
   if (inertiaOf[i] == Inertia::kGiven) return;
   if (!batch.responders.empty() && batch.responders[slot].articulation >= 0) {
     return takeGiven(batch, slot);
   }
-  const auto change = [](const float(&now)[3], float(&then)[3]) {
-    Vec3 by;
-    for (int k = 0; k < 3; ++k) {
-      by[k] = double(now[k]) - then[k];
-      then[k] = now[k];
-    }
-    return by;
-  };
-  moved[i].u += change(lane.u, before.u);
-  if (inertiaOf[i] == Inertia::kNone) return;
-  moved[i].theta += rotationOf(batch.masses[slot], change(lane.turn, before.turn));
+  const bool turns = inertiaOf[i] != Inertia::kNone;
+  lanesOf(batch).take(slot, moved[i].u, turns ? &moved[i].theta : nullptr);
 }
 
 // Of a body whose joints respond: what contacts gave it, as if it had none. They are to follow.

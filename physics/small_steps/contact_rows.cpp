@@ -70,6 +70,7 @@ void SmallSteps::Impl::takeSlots(Batch& batch) {
   }
   batch.motions.assign(batch.slots.size(), LaneMotion{});
   batch.masses.assign(batch.slots.size(), LaneMass{});
+  batch.inverses.resize(batch.slots.size());
   batch.before.resize(batch.slots.size());
 }
 
@@ -218,6 +219,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
   w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
     for (int s = std::max(from, 1); s < to; ++s) {
       batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
+      batch.inverses[s] = inverseOf(batch.masses[s]);
       startRows(batch.motions[s]);
     }
   });

@@ -95,6 +95,7 @@ void SmallSteps::Impl::renewTurned(Model& w, Batch& batch) {
   for (std::size_t s = 1; s < batch.slots.size(); ++s) {
     if (!batch.turned[s]) continue;
     batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
+    batch.inverses[s] = inverseOf(batch.masses[s]);
     startRows(batch.motions[s]);
     toLane(batch, static_cast<int>(s));
   }

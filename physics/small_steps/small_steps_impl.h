@@ -53,10 +53,6 @@ struct Responder {
 // the same.
 enum class Inertia : char { kGiven, kNone, kRound, kOther };
 
-struct LaneStart {
-  float u[3] = {}, turn[3] = {};
-};
-
 // Of a body, at the start of its step.
 struct KeptStart {
   Pose pose;
@@ -106,15 +102,15 @@ struct SmallSteps::Batch {
   std::vector<Responder> responders;  // by slot; empty: none
   std::vector<LaneStart> before;      // of the motions, when the bodies last knew of them
   std::vector<LaneMass> masses;
+  std::vector<LaneInverse> inverses;
   std::vector<BodyId> slots;    // the body of each slot
   std::vector<KeptStart> kept;  // of `bodies`, where joints may have to make their step again
   std::vector<char> turned;     // by slot: so far that its rows are to be prepared anew
 
   bool takesTurns() const { return joined == Joined::kTakesTurns; }
   // More than contacts of rigid bodies.
-  bool isMixed() const {
-    return !articulations.empty() || !deformables.empty() || !softRows.empty();
-  }
+  bool isMixed() const { return !articulations.empty() || isSoft(); }
+  bool isSoft() const { return !deformables.empty() || !softRows.empty(); }
 };
 
 // Rows are prepared where the body is now.
@@ -242,6 +238,7 @@ struct SmallSteps::Impl {
   void giveOtherHalf(const Model& w, const Batch& batch, double h);
   void predictBody(Model& w, const Batch& batch, BodyId i, double h, bool first);
   void predictTurn(Model& w, BodyId i, double h, double kick, bool first);
+  LaneBodies lanesOf(Batch& batch) const;
   void toLane(Batch& batch, int slot);
   void fromLane(Batch& batch, int slot);
   void takeGiven(Batch& batch, int slot);
@@ -250,6 +247,8 @@ struct SmallSteps::Impl {
   void warmStartContacts(Model& w, Batch& batch);
   void sweepContactPositions(Model& w, Batch& batch, PositionSweep which);
   void sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which);
+  void sweepContactVelocities(Model& w, Batch& batch, int s, double h);
+  void tellBodies(Model& w, Batch& batch, const JointStage& stage);
   void balanceContacts(Model& w, Batch& batch);
   void displaceBody(Model& w, BodyId i, double h);
   void displaceAll(Model& w, Batch& batch, double h);
@@ -258,7 +257,7 @@ struct SmallSteps::Impl {
   void noteApproach(Model& w, Batch& batch, double h);
   void bounce(Model& w, Batch& batch, double h);
   void solveContactPositions(Model& w, Batch& batch, const JointStage& stage);
-  void startTurns(Model& w, Batch& batch);
+  void takeTurns(Model& w, Batch& batch, const JointStage& stage);
   void addWork(const Model& w, const Batch& batch, std::vector<double>& work);
   bool findRise(Model& w, Batch& batch);
   void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares);

@@ -222,6 +222,20 @@ void SmallSteps::Impl::balanceContacts(Model& w, Batch& batch) {
   });
 }
 
+// The s-th of a substep.
+void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, int s, double h) {
+  profileScope("contact");
+  const bool isLast = s + 1 == batch.sweeps, closes = isLast && !batch.isMixed();
+  if (learning) {
+    balanceContacts(w, batch);
+  } else {
+    if (closes) watchVelocities(w, batch);
+    sweepContactVelocities(w, batch, {.first = s == 0, .last = isLast});
+    if (closes) closeVelocities(w, batch, h);
+  }
+  profileScope("direct");
+}
+
 // Joints, contacts, joints: the last ones leave contacts open by little, and joints not at all.
 void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
   const JointStage stage = {w.kinds,
@@ -234,12 +248,12 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
   if (w.settings.maxCorrectionSpeed) batch.joints.leave(stage, h * *w.settings.maxCorrectionSpeed);
-  batch.joints.seePositions(stage);
-  if (count > 0 && batch.takesTurns()) startTurns(w, batch);
-  batch.joints.followPositions(stage);
-  if (count > 0) {
-    profileScope("contact");
-    solveContactPositions(w, batch, stage);
+  if (count > 0 && batch.takesTurns()) {
+    takeTurns(w, batch, stage);
+  } else {
+    batch.joints.seePositions(stage);
+    batch.joints.followPositions(stage);
+    if (count > 0) solveContactPositions(w, batch, stage);
   }
   sweepDeformables(w, batch, h);
   profileScope("direct");
@@ -265,21 +279,20 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   }
   measure(batch.softRows, moved);
   const bool isMixed = batch.isMixed();
+  // All that moves is in lanes.
+  const bool inLanes = count > 0 && batch.takesTurns() && !batch.isSoft();
   if (count > 0 && isMixed) {
     toLanes(w, batch);
     respond(batch);
   }
   for (int s = 0; s < batch.sweeps; ++s) {
     if (count > 0) {
-      profileScope("contact");
-      if (learning) {
-        balanceContacts(w, batch);
-      } else {
-        if (!isMixed && s + 1 == batch.sweeps) watchVelocities(w, batch);
-        sweepContactVelocities(w, batch, {.first = s == 0, .last = s + 1 == batch.sweeps});
-        if (!isMixed && s + 1 == batch.sweeps) closeVelocities(w, batch, h);
-      }
+      sweepContactVelocities(w, batch, s, h);
       if (!isMixed) continue;
+      if (inLanes) {
+        batch.joints.solveVelocities(lanesOf(batch));
+        continue;
+      }
       fromLanes(w, batch);
     } else if (batch.deformables.empty() && batch.softRows.empty()) {
       batch.joints.refineVelocities(stage);
@@ -290,6 +303,7 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
     batch.joints.solveVelocities(stage);
     if (count > 0 && s + 1 < batch.sweeps) toLanes(w, batch);
   }
+  if (inLanes) tellBodies(w, batch, stage);
   if (count > 0 && batch.takesTurns() && !learning) boundWork(w, batch, stage);
 }
 

@@ -21,40 +21,49 @@ void SmallSteps::Impl::sweepContactPositions(Model& w, Batch& batch, PositionSwe
 
 // Joints know what contacts carry before these are swept: by its own mass alone, a foot that bears
 // its figure would fly up under that, and the sweep would take all of it back. For the same reason
-// the rows of joints are those of before: evaluated where the foot has flown to, they open.
-void SmallSteps::Impl::startTurns(Model& w, Batch& batch) {
-  for (const BodyId i : batch.bodies) predicted[i] = moved[i];
+// the rows of joints are those of before: evaluated where the foot has flown to, they open. Where
+// they take turns, springs carry more than their bodies weigh, and are drawn far: substeps do not
+// follow that, as they do where bodies are single. Until they are done only the lanes know what
+// bodies without joints move by.
+void SmallSteps::Impl::takeTurns(Model& w, Batch& batch, const JointStage& stage) {
+  const PositionSweep which = {
+      .push = static_cast<float>(w.settings.contact->maxSeparationSpeed * stage.h),
+      .isDrawnByLoad = true};
   toLanes(w, batch);
   warmStartContacts(w, batch);
-  fromLanes(w, batch);
+  batch.joints.startTurns(stage, lanesOf(batch));
+  for (const BodyId i : batch.bodies) predicted[i] = moved[i];
+  for (int s = 0; s < kPositionSweeps; ++s) {
+    profileScope("contact");
+    sweepContactPositions(w, batch, which);
+    profileScope("direct");
+    batch.joints.followPositions(lanesOf(batch));
+  }
+  tellBodies(w, batch, stage);
 }
 
-// Where they take turns, springs carry more than their bodies weigh, and are drawn far: substeps do
-// not follow that, as they do where bodies are single.
+// What turns ended with.
+void SmallSteps::Impl::tellBodies(Model& w, Batch& batch, const JointStage& stage) {
+  fromLanes(w, batch);
+  batch.joints.tell(stage);
+}
+
+// Of contacts that have no turns to take: they see what joints make of what they give, or there are
+// none.
 void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const JointStage& stage) {
-  const bool takesTurns = batch.takesTurns();
-  const auto follow = [&] {
-    if (batch.isMixed()) fromLanes(w, batch);
-    batch.joints.followPositions(stage);
-  };
+  profileScope("contact");
   toLanes(w, batch);
-  if (!takesTurns) {
-    respond(batch);
-    warmStartContacts(w, batch);
-  }
-  PositionSweep which = {
-      .push = static_cast<float>(w.settings.contact->maxSeparationSpeed * stage.h),
-      .isDrawnByLoad = takesTurns};
-  const int sweeps = takesTurns || batch.isDeep ? kPositionSweeps : 1;
+  respond(batch);
+  warmStartContacts(w, batch);
+  PositionSweep which = {.push =
+                             static_cast<float>(w.settings.contact->maxSeparationSpeed * stage.h)};
+  const int sweeps = batch.isDeep ? kPositionSweeps : 1;
   for (int s = 0; s < sweeps; ++s) {
-    if (takesTurns && s > 0) {
-      follow();
-      toLanes(w, batch);
-    }
-    which.onlyDeep = !takesTurns && s > 0;
+    which.onlyDeep = s > 0;
     sweepContactPositions(w, batch, which);
   }
-  follow();
+  if (batch.isMixed()) fromLanes(w, batch);
+  batch.joints.followPositions(stage);
 }
 
 // lambda^T J u of islands, by their first body, for what the lanes move by.

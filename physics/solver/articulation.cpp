@@ -90,6 +90,18 @@ void JointPacks::followPositions(const JointStage& stage) {
   forEach([&](auto& pack) { pack.followPositions(stage); });
 }
 
+void JointPacks::startTurns(const JointStage& stage, const LaneBodies& lanes) {
+  forEach([&](auto& pack) { pack.startTurns(stage, lanes); });
+}
+
+void JointPacks::followPositions(const LaneBodies& lanes) {
+  forEach([&](auto& pack) { pack.followPositions(lanes); });
+}
+
+void JointPacks::tell(const JointStage& stage) {
+  forEach([&](auto& pack) { pack.tell(stage); });
+}
+
 void JointPacks::closePositions(const JointStage& stage, double tolerance) {
   forEach([&](auto& pack) { pack.closePositions(stage, tolerance); });
 }
@@ -100,6 +112,10 @@ void JointPacks::prepareVelocities(const JointStage& stage) {
 
 void JointPacks::solveVelocities(const JointStage& stage) {
   forEach([&](auto& pack) { pack.solveVelocities(stage); });
+}
+
+void JointPacks::solveVelocities(const LaneBodies& lanes) {
+  forEach([&](auto& pack) { pack.solveVelocities(lanes); });
 }
 
 void JointPacks::refineVelocities(const JointStage& stage) {

@@ -106,9 +106,13 @@ class JointPack {
   void leave(const JointStage& stage, double most);
   void seePositions(const JointStage& stage);
   void followPositions(const JointStage& stage);
+  void startTurns(const JointStage& stage, const LaneBodies& lanes);
+  void followPositions(const LaneBodies& lanes);
+  void tell(const JointStage& stage) const;
   void closePositions(const JointStage& stage, double tolerance);
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
+  void solveVelocities(const LaneBodies& lanes);
   void refineVelocities(const JointStage& stage);
   void respond();
   void finish(Kinds& kinds, double h);
@@ -123,7 +127,9 @@ class JointPack {
   void restorePoses(const JointStage& stage) const;
   void seeOthers(const JointStage& stage, bool all);
   void openAll();
-  void solveOpenVelocities(const JointStage& stage);
+  void solveOpenVelocities();
+  void takeLanes(const LaneBodies& lanes);
+  void giveLanes(const LaneBodies& lanes) const;
   void see(const JointStage& stage, bool first);
   void noteSeen();
   void step();
@@ -155,9 +161,9 @@ class JointPack {
   std::shared_ptr<const JointTopology> topology_;
   std::vector<JointBody<W>> bodies_;
   std::vector<JointLanes<W>> rows_;
-  std::vector<JointBlock<W>> blocks_;
-  std::vector<State> states_;  // by row
-  bool began_ = false;         // a substep of this step
+  std::vector<Num<W>> entries_, scaled_;  // of blocks below the diagonal
+  std::vector<State> states_;             // by row
+  bool began_ = false;                    // a substep of this step
   Num<W> open_{};
   std::vector<char> used_;
   std::vector<int> usedBelow_, usedCounts_;
@@ -170,9 +176,8 @@ class JointPack {
   bool seenSince_ = true;        // J is not that of the factor any more
   std::array<bool, W> exact_{};  // the factor is that of the velocity stage
   std::vector<JointFactor<W>> keptFactors_;
-  std::vector<JointBlock<W>> keptBlocks_;
-  std::vector<Num<W>> keptTail_;
-  std::vector<JointBody<W>> keptBodies_;
+  std::vector<Num<W>> keptTail_, keptScaled_;
+  std::vector<std::array<Num<W>, 4>> keptTurns_;
   struct {  // where the last step of Newton's began, by row and body, and what it was off by
     std::vector<std::array<Num<W>, 3>> lambda, u, theta;
     std::array<double, W> off{};
@@ -190,11 +195,17 @@ class JointPacks {
   // something since, solves for positions by these rows.
   void seePositions(const JointStage& stage);
   void followPositions(const JointStage& stage);
+  // The same in turns with contacts, whose lanes have moved since `moved`: from them and into them,
+  // to be told in the end. The first turn evaluates the rows, where `moved` has the bodies.
+  void startTurns(const JointStage& stage, const LaneBodies& lanes);
+  void followPositions(const LaneBodies& lanes);
+  void tell(const JointStage& stage);
   // As often as it takes until what is off is `tolerance` of the arms, before another step.
   void closePositions(const JointStage& stage, double tolerance);
   // Evaluates at the end of the substep; then, as often as contacts are swept:
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
+  void solveVelocities(const LaneBodies& lanes);
   void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
   void respond();                                  // of those that ask: `Articulation::response`
   // Multipliers back to the kinds' sets, but of those that are opened.

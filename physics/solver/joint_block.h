@@ -47,12 +47,6 @@ struct JointLanes {
   JointFactor<W> factor;
 };
 
-// A_ki below the diagonal, and L_ki.
-template <int W>
-struct JointBlock {
-  Num<W> entry[9], scaled[9];
-};
-
 // What articulations of equal topology share. Rows are in the order of elimination and 1 or 3 high;
 // of 3 the last one may be empty.
 struct JointShape {
@@ -67,11 +61,13 @@ struct JointShape {
 static constexpr bool isLimit(const JointShape& shape) {
   return shape.seen == JointSeen::kCone || shape.seen == JointSeen::kTwist;
 }
+// A block below the diagonal: its row, its meeting, and where its numbers begin, which lie in the
+// order in which they are solved with.
 struct JointBelow {
-  int to, block;
+  int to, block, at;
 };
-// Column i: below[start...], and of each pair p <= q of these the block that (q, p) goes to, -1 on
-// the diagonal, at updates + q (q + 1) / 2 + p.
+// Column i: below[start...], and of each pair p <= q of these where the block that (q, p) goes to
+// begins, -1 on the diagonal, at updates + q (q + 1) / 2 + p.
 struct JointColumn {
   int start = 0, count = 0, updates = 0;
 };
@@ -102,7 +98,7 @@ template <int W>
 struct JointView {
   JointBody<W>* bodies;
   JointLanes<W>* rows;
-  JointBlock<W>* blocks;
+  Num<W>*entries, *scaled;  // of blocks, by rows: A_ki below the diagonal, and L_ki
   int bodyCount, rowCount, tailStart;
   const JointShape* shapes;
   const JointColumn* columns;

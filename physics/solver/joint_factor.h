@@ -163,9 +163,9 @@ void buildDiagonal(const Of<N>& s, int i) {
 }
 
 template <int R, int C, class N>
-void buildBlock(const Of<N>& s, int k, int i, int block) {
+void buildBlock(const Of<N>& s, int k, int i, const JointBelow& below) {
   N sum[9];
-  const JointMeeting& meeting = s.meetings[block];
+  const JointMeeting& meeting = s.meetings[below.block];
   if (R == 3 && C == 3 && meeting.count == 1 && s.shapes[k].isGap && s.shapes[i].isGap) {
     coupleGaps<N>(s, k, meeting.later[0], i, meeting.earlier[0], sum);
   } else {
@@ -178,7 +178,7 @@ void buildBlock(const Of<N>& s, int k, int i, int block) {
   const N later = k < s.tailStart ? load(s.rows[k].free) : all<N>(1);
   const N free = wherePositive(later, load(s.rows[i].free), all<N>(0));
   for (int e = 0; e < R * C; ++e) {
-    store(s.blocks[block].entry[e], wherePositive(free, sum[e], all<N>(0)));
+    store(s.entries[below.at + e], wherePositive(free, sum[e], all<N>(0)));
   }
 }
 
@@ -201,27 +201,28 @@ constexpr int symmetric(int r, int c) { return r > c ? triangle(r, c) : triangle
 
 // L_ki = A_ki D_ii^-1
 template <int R, int C, class N>
-void scale(JointBlock<N::kWidth>& block, const JointFactor<N::kWidth>& factor) {
+void scale(const Num<N::kWidth>* entry, const JointFactor<N::kWidth>& factor,
+           Num<N::kWidth>* scaled) {
   for (int r = 0; r < R; ++r) {
     for (int c = 0; c < C; ++c) {
-      N sum = load(block.entry[r * C]) * load(factor.inverse[symmetric(0, c)]);
+      N sum = load(entry[r * C]) * load(factor.inverse[symmetric(0, c)]);
       for (int k = 1; k < C; ++k) {
-        sum = sum + load(block.entry[r * C + k]) * load(factor.inverse[symmetric(k, c)]);
+        sum = sum + load(entry[r * C + k]) * load(factor.inverse[symmetric(k, c)]);
       }
-      store(block.scaled[r * C + c], sum);
+      store(scaled[r * C + c], sum);
     }
   }
 }
 
 // to -= L_qi A_pi^T; of the diagonal the lower triangle.
 template <int R, int C, int I, bool kDiagonal, class N>
-void update(Num<N::kWidth>* to, const JointBlock<N::kWidth>& q, const JointBlock<N::kWidth>& p) {
+void update(Num<N::kWidth>* to, const Num<N::kWidth>* scaled, const Num<N::kWidth>* entry) {
   for (int r = 0; r < R; ++r) {
     for (int c = 0; c < (kDiagonal ? r + 1 : C); ++c) {
-      N sum = load(q.scaled[r * I]) * load(p.entry[c * I]);
-      for (int k = 1; k < I; ++k) sum = sum + load(q.scaled[r * I + k]) * load(p.entry[c * I + k]);
-      auto& entry = to[kDiagonal ? triangle(r, c) : r * C + c];
-      store(entry, load(entry) - sum);
+      N sum = load(scaled[r * I]) * load(entry[c * I]);
+      for (int k = 1; k < I; ++k) sum = sum + load(scaled[r * I + k]) * load(entry[c * I + k]);
+      auto& target = to[kDiagonal ? triangle(r, c) : r * C + c];
+      store(target, load(target) - sum);
     }
   }
 }
@@ -249,25 +250,25 @@ void eliminate(const Of<N>& s, int i) {
       const JointBelow& q = below[used[u]];
       withSize(s.shapes[q.to].size, [&](auto high) {
         constexpr int kR = decltype(high)::value;
-        JointBlock<N::kWidth>& block = s.blocks[q.block];
-        scale<kR, kI, N>(block, factor);
+        const auto* scaled = s.scaled + q.at;
+        scale<kR, kI, N>(s.entries + q.at, factor, s.scaled + q.at);
         const int* target = s.updates + column.updates + used[u] * (used[u] + 1) / 2;
         for (int v = 0; v < u; ++v) {
           const JointBelow& p = below[used[v]];
           if (p.to >= s.tailStart) {
             auto& entry = s.tail.a[triangle(q.to - s.tailStart, p.to - s.tailStart)];
-            update<1, 1, kI, false, N>(&entry, block, s.blocks[p.block]);
+            update<1, 1, kI, false, N>(&entry, scaled, s.entries + p.at);
             continue;
           }
           withSize(s.shapes[p.to].size, [&](auto wide) {
-            update<kR, decltype(wide)::value, kI, false, N>(s.blocks[target[used[v]]].entry, block,
-                                                            s.blocks[p.block]);
+            update<kR, decltype(wide)::value, kI, false, N>(s.entries + target[used[v]], scaled,
+                                                            s.entries + p.at);
           });
         }
         auto* diagonal = q.to < s.tailStart
                              ? s.rows[q.to].factor.diagonal
                              : &s.tail.a[triangle(q.to - s.tailStart, q.to - s.tailStart)];
-        update<kR, kR, kI, true, N>(diagonal, block, block);
+        update<kR, kR, kI, true, N>(diagonal, scaled, s.entries + q.at);
       });
     }
   });
@@ -358,7 +359,7 @@ void factorize(const Of<N>& s) {
       s.usedBelow[column.start + count++] = k;
       withSize(s.shapes[below.to].size, [&](auto high) {
         withSize(s.shapes[i].size, [&](auto wide) {
-          buildBlock<decltype(high)::value, decltype(wide)::value, N>(s, below.to, i, below.block);
+          buildBlock<decltype(high)::value, decltype(wide)::value, N>(s, below.to, i, below);
         });
       });
     }

@@ -136,7 +136,8 @@ void aimAtErrors(const Of<N>& s) {
     });
     const Triple<N> lambda = load3<N>(row.lambda);
     Triple<N> error = load3<N>(row.c) - load3<N>(row.left) + since;
-    error = error + alphaTimes<N>(row.alpha, lambda) + lambda * load(row.factor.yields);
+    if (s.shapes[i].seen == JointSeen::kByKind) error = error + alphaTimes<N>(row.alpha, lambda);
+    error = error + lambda * load(row.factor.yields);
     aim<N>(s, row, error);
   }
 }
@@ -185,7 +186,7 @@ void substitute(const Of<N>& s) {
       for (int c = 0; c < kI; ++c) y[c] = load(s.rows[i].right[c]);
       for (int u = 0; u < s.usedCounts[i]; ++u) {
         const JointBelow& q = below[used[u]];
-        const auto* scaled = s.blocks[q.block].scaled;
+        const auto* scaled = s.scaled + q.at;
         auto* right = s.rows[q.to].right;
         for (int r = 0; r < s.shapes[q.to].size; ++r) {
           N sum = load(scaled[r * kI]) * y[0];
@@ -212,7 +213,7 @@ void substitute(const Of<N>& s) {
       }
       for (int u = 0; u < s.usedCounts[i]; ++u) {
         const JointBelow& q = below[used[u]];
-        const auto* scaled = s.blocks[q.block].scaled;
+        const auto* scaled = s.scaled + q.at;
         for (int r = 0; r < s.shapes[q.to].size; ++r) {
           const N right = load(s.rows[q.to].right[r]);
           for (int c = 0; c < kI; ++c) y[c] = y[c] - load(scaled[r * kI + c]) * right;

@@ -28,7 +28,8 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     topology_ = of_[0]->topology_;
     bodies_.assign(topology_->bodyCount, JointBody<W>{});
     rows_.assign(topology_->shapes.size(), JointLanes<W>{});
-    blocks_.assign(topology_->meetings.size(), JointBlock<W>{});
+    entries_.assign(topology_->lower, Num<W>{});
+    scaled_.assign(topology_->lower, Num<W>{});
     states_.assign(topology_->shapes.size(), State{});
     used_.resize(rows_.size());
     steps_.lambda.resize(rows_.size());
@@ -81,7 +82,8 @@ JointView<W> JointPack<W>::view() {
   Num<W>* work = tailWork_.data();
   return {bodies_.data(),
           rows_.data(),
-          blocks_.data(),
+          entries_.data(),
+          scaled_.data(),
           static_cast<int>(bodies_.size()),
           static_cast<int>(rows_.size()),
           topology_->tailStart,
@@ -279,36 +281,34 @@ void JointPack<W>::factorizeStale() {
   if (!seenSince_ || std::all_of(stale_.begin(), end, isStale)) return factorize();
   const std::array<bool, W> stale = stale_;
   keptFactors_.resize(rows_.size());
-  keptBlocks_.resize(blocks_.size());
   keptTail_ = tail_;
-  keptBodies_ = bodies_;
-  const auto forEachUsed = [&](auto&& row, auto&& block) {
+  keptScaled_ = scaled_;
+  keptTurns_.resize(bodies_.size());
+  const auto forEachUsed = [&](auto&& f) {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (!used_[i]) continue;
-      row(i);
-      const JointColumn& column = topology_->columns[i];
-      for (int k = 0; k < usedCounts_[i]; ++k) {
-        block(topology_->below[column.start + usedBelow_[column.start + k]].block);
-      }
+      if (used_[i]) f(i);
     }
   };
-  forEachUsed([&](std::size_t i) { keptFactors_[i] = rows_[i].factor; },
-              [&](int k) { keptBlocks_[k] = blocks_[k]; });
+  forEachUsed([&](std::size_t i) { keptFactors_[i] = rows_[i].factor; });
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    std::copy(std::begin(bodies_[i].factorTheta), std::end(bodies_[i].factorTheta),
+              keptTurns_[i].begin());
+    keptTurns_[i].back() = bodies_[i].factorVolume;
+  }
   factorize();
   seenSince_ = true;
-  forEachUsed(
-      [&](std::size_t i) {
-        const JointFactor<W>& from = keptFactors_[i];
-        JointFactor<W>& to = rows_[i].factor;
-        for (int b = 0; b < 2; ++b) restoreLanes<W>(from.response[b], stale, 9, to.response[b]);
-        restoreLanes<W>(&from.yields, stale, 1, &to.yields);
-        restoreLanes<W>(from.inverse, stale, 6, to.inverse);
-      },
-      [&](int k) { restoreLanes<W>(keptBlocks_[k].scaled, stale, 9, blocks_[k].scaled); });
+  forEachUsed([&](std::size_t i) {
+    const JointFactor<W>& from = keptFactors_[i];
+    JointFactor<W>& to = rows_[i].factor;
+    for (int b = 0; b < 2; ++b) restoreLanes<W>(from.response[b], stale, 9, to.response[b]);
+    restoreLanes<W>(&from.yields, stale, 1, &to.yields);
+    restoreLanes<W>(from.inverse, stale, 6, to.inverse);
+  });
+  restoreLanes<W>(keptScaled_.data(), stale, topology_->lower, scaled_.data());
   restoreLanes<W>(keptTail_.data(), stale, static_cast<int>(tail_.size()), tail_.data());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    restoreLanes<W>(keptBodies_[i].factorTheta, stale, 3, bodies_[i].factorTheta);
-    restoreLanes<W>(&keptBodies_[i].factorVolume, stale, 1, &bodies_[i].factorVolume);
+    restoreLanes<W>(keptTurns_[i].data(), stale, 3, bodies_[i].factorTheta);
+    restoreLanes<W>(&keptTurns_[i].back(), stale, 1, &bodies_[i].factorVolume);
   }
 }
 
@@ -399,6 +399,50 @@ void JointPack<W>::followPositions(const JointStage& stage) {
   openAll();
   gatherMotion<W>(ids_, stage.moved, bodies_);
   step();
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+}
+
+template <int W>
+void JointPack<W>::takeLanes(const LaneBodies& lanes) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    JointBody<W>& body = bodies_[i];
+    for (int l = 0; topology_->moves[i] && l < lanes_; ++l) {
+      const int slot = lanes.slotOf[ids_[i * W + l]];
+      const bool turns = body.inertia[0].v[l] + body.inertia[1].v[l] + body.inertia[2].v[l] > 0;
+      Vec3 u = read(body.u, l), theta = read(body.theta, l);
+      lanes.take(slot, u, turns ? &theta : nullptr);
+      write(body.u, l, u);
+      write(body.theta, l, theta);
+    }
+  }
+}
+
+template <int W>
+void JointPack<W>::giveLanes(const LaneBodies& lanes) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const JointBody<W>& body = bodies_[i];
+    for (int l = 0; topology_->moves[i] && l < lanes_; ++l) {
+      lanes.give(lanes.slotOf[ids_[i * W + l]], read(body.u, l), read(body.theta, l));
+    }
+  }
+}
+
+template <int W>
+void JointPack<W>::startTurns(const JointStage& stage, const LaneBodies& lanes) {
+  seePositions(stage);
+  followPositions(lanes);
+}
+
+template <int W>
+void JointPack<W>::followPositions(const LaneBodies& lanes) {
+  openAll();
+  takeLanes(lanes);
+  step();
+  giveLanes(lanes);
+}
+
+template <int W>
+void JointPack<W>::tell(const JointStage& stage) const {
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
@@ -555,19 +599,31 @@ void JointPack<W>::prepareVelocities(const JointStage& stage) {
 template <int W>
 void JointPack<W>::solveVelocities(const JointStage& stage) {
   openAll();
-  solveOpenVelocities(stage);
+  gatherMotion<W>(ids_, stage.moved, bodies_);
+  solveOpenVelocities();
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+}
+
+template <int W>
+void JointPack<W>::solveVelocities(const LaneBodies& lanes) {
+  openAll();
+  takeLanes(lanes);
+  solveOpenVelocities();
+  giveLanes(lanes);
 }
 
 template <int W>
 void JointPack<W>::refineVelocities(const JointStage& stage) {
   for (int l = 0; l < W; ++l) open_.v[l] = l < lanes_ && !exact_[l] ? 1 : 0;
-  if (std::any_of(open_.v, open_.v + W, [](double o) { return o > 0; })) solveOpenVelocities(stage);
+  if (std::none_of(open_.v, open_.v + W, [](double o) { return o > 0; })) return;
+  gatherMotion<W>(ids_, stage.moved, bodies_);
+  solveOpenVelocities();
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
 template <int W>
-void JointPack<W>::solveOpenVelocities(const JointStage& stage) {
+void JointPack<W>::solveOpenVelocities() {
   const JointKernels<W>& kernels = jointKernels<W>();
-  gatherMotion<W>(ids_, stage.moved, bodies_);
   for (int round = 1;; ++round) {
     factorizeStale();
     kernels.aimAtVelocities(view());
@@ -575,7 +631,6 @@ void JointPack<W>::solveOpenVelocities(const JointStage& stage) {
     if (round == kMostRounds || !holdAtBounds()) break;
   }
   kernels.apply(view());
-  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
 template <int W>

@@ -44,7 +44,7 @@ void JointPack<W>::noteResponse(const std::array<int, W>& from, int component) {
       if (to < 0) continue;
       float* column = response.block(to, from[l]) + JointResponse::kColumn * component;
       const Vec3 u = read(bodies_[body].u, l);
-      const Vec3 turn = turnOf(response.masses[to], read(bodies_[body].theta, l));
+      const Vec3 turn = turnOf(inverseOf(response.masses[to]), read(bodies_[body].theta, l));
       for (int k = 0; k < 3; ++k) {
         column[k] = static_cast<float>(u[k]);
         column[3 + k] = static_cast<float>(turn[k]);

@@ -164,7 +164,11 @@ void fill(JointTopology& t, Blocks& blocks) {
     std::sort(below.begin(), below.end());
     JointColumn column{static_cast<int>(t.below.size()), static_cast<int>(below.size()),
                        static_cast<int>(t.updates.size())};
-    for (const int k : below) t.below.push_back({k, blocks.of.at({k, i})});
+    for (const int k : below) {
+      const int block = blocks.of.at({k, i});
+      t.below.push_back({k, block, t.lower});
+      t.lower += t.shapes[k].size * t.shapes[i].size;
+    }
     for (std::size_t q = 0; q < below.size(); ++q) {
       for (std::size_t p = 0; p <= q; ++p) {
         const bool isBlock = p != q && below[p] < t.tailStart;
@@ -174,6 +178,9 @@ void fill(JointTopology& t, Blocks& blocks) {
     t.columns.push_back(column);
   }
   t.meetings.resize(blocks.of.size());
+  std::vector<int> at(t.meetings.size());
+  for (const JointBelow& below : t.below) at[below.block] = below.at;
+  for (int& block : t.updates) block = block < 0 ? block : at[block];
 }
 
 std::vector<int> signatureOf(std::span<const JointRef> refs,

@@ -25,6 +25,7 @@ struct JointTopology {
   std::vector<JointBelow> below;
   std::vector<int> updates;
   std::vector<JointMeeting> meetings;  // by block
+  int lower = 0;                       // numbers of the blocks below the diagonal
   bool isTree = false;                 // no two rows can say the same
   int tailStart = 0;                   // of the rows: limits, which come last
   std::vector<JointPair> tail;         // those of them that share a body

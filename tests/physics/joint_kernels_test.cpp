@@ -46,7 +46,7 @@ struct Memory {
   std::shared_ptr<const JointTopology> topology = threeLinks();
   std::vector<JointBody<W>> bodies{3};
   std::vector<JointLanes<W>> rows{topology->shapes.size()};
-  std::vector<JointBlock<W>> blocks{topology->meetings.size()};
+  std::vector<Num<W>> entries = std::vector<Num<W>>(topology->lower), scaled = entries;
   Num<W> open;
   std::vector<char> used = std::vector<char>(rows.size(), 1);
   std::vector<int> usedBelow = std::vector<int>(topology->below.size()),
@@ -60,7 +60,8 @@ struct Memory {
   JointView<W> view() {
     return {bodies.data(),
             rows.data(),
-            blocks.data(),
+            entries.data(),
+            scaled.data(),
             3,
             static_cast<int>(rows.size()),
             topology->tailStart,
