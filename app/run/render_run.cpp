@@ -72,9 +72,9 @@ class Drawing {
             [this](int, const std::string& answer) { take(Json::parse(answer)); }) {}
 
   void run() {
+    result_.record.accuracy = Json();
     try {
       if (!fits()) startDrawing();
-      result_.record.accuracy = Json();
       if (motion_.isWhole) {
         showAgain();
       } else {
@@ -109,8 +109,7 @@ class Drawing {
       checker_.observe(simulation_);
       const scenes::Moment moment = simulation_.moment();
       motion_.motion.append(moment);
-      addAccuracy(scene, moment.metrics.accuracy, result_.record.accuracy);
-      include(simulation_.frame(), simulation_.stateHash(), simulation_.world().bodies().pose);
+      include(moment);
       stepping.advance();
     });
     result_.record.addSeconds("simulate", seconds);
@@ -125,23 +124,20 @@ class Drawing {
   void showAgain() {
     const Motion& motion = motion_.motion;
     const int frames = std::min(motion.frames(), framesNeeded(simulation_.scene(), job_));
-    for (int frame = 0; frame < frames; ++frame) {
-      const scenes::Moment moment = motion.moment(frame);
-      addAccuracy(simulation_.scene(), moment.metrics.accuracy, result_.record.accuracy);
-      include(frame, moment.stateHash, moment.poses);
-    }
+    for (int frame = 0; frame < frames; ++frame) include(motion.moment(frame));
     result_.end.frames = frames;
     result_.record.expectations = motion.about().value("expectations", Json::array());
   }
 
-  void include(int frame, std::uint64_t stateHash, std::span<const physics::Pose> poses) {
-    bounds_.include(simulation_, simulation_.scene().camera.fit, poses);
-    if (!agreesWithRecord(frame, stateHash) && frames_.count() > 0) {
+  void include(const scenes::Moment& moment) {
+    bounds_.include(simulation_, simulation_.scene().camera.fit, moment.poses);
+    addAccuracy(simulation_.scene(), moment.metrics.accuracy, result_.record.accuracy);
+    if (!agreesWithRecord(moment.frame, moment.stateHash) && frames_.count() > 0) {
       refuse(frames_, fmt::format("of a run whose states differ from frame {} on, though scene, "
                                   "settings and program are the same (did an asset change?).",
-                                  frame));
+                                  moment.frame));
     }
-    if (!fits()) ask(frame);
+    if (!fits()) ask(moment.frame);
     crew_.pump();
   }
 
