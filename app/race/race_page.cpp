@@ -131,7 +131,8 @@ class Panel {
   }
 
   static std::string energyText(double change) {
-    return (change > 0 ? "+" : "") + shareText(change);
+    const std::string share = shareText(change);
+    return (change > 0 && share != shareText(0) ? "+" : "") + share;
   }
 
   void status(bool broken) {
