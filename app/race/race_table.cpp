@@ -23,7 +23,7 @@ std::string row(const RaceTrack& track, const Race& race) {
   }
   const RaceWorst worst = worstOf(track);
   const auto measure = [](bool there, double length, double share) {
-    return there ? lengthText(length) + ", " + shareText(share) : std::string("none");
+    return there ? metresText(length) + ", " + shareText(share) : std::string("none");
   };
   std::string text = fmt::format(
       "{:<14} {:>8.3g} {:>8.3g} {:>8.3g}  {:<18} {:<18} {:<16} {}\n", track.entry.title,
@@ -85,7 +85,7 @@ RaceWorst worstOf(const RaceTrack& track) {
   return worst;
 }
 
-std::string lengthText(double metres) {
+std::string metresText(double metres) {
   constexpr double kNothing = 1e-6;  // m
   if (metres < kNothing) return "0 mm";
   if (metres < 0.1) return fmt::format("{:.2g} mm", 1e3 * metres);
