@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include "app/base/interrupt.h"
 #include "app/commands/exit_code.h"
@@ -56,6 +57,8 @@ std::string answer(const Crew::Work& work, const std::string& task) {
     return kEnvironment + std::string(error.what());
   } catch (const CheckFailed& error) {
     return kFailed + std::string(error.what());
+  } catch (const std::system_error& error) {
+    return kEnvironment + std::string(error.what());
   } catch (const std::exception& error) {
     return kBug + std::string(error.what());
   }

@@ -92,9 +92,10 @@ TEST_F(Environment, AReadOnlyFolderIsTold) {  // /proc refuses even root
 
 // A limit on the size of files stops writing in the middle, as a full disk does.
 TEST_F(Environment, AnImageThatDoesNotFitLeavesNoHalfFileAndTheRunGoesOn) {
-  const std::string arguments = "render drop.toml --quiet --size 320x180 --threads 2 -o run";
-  const Outcome outcome = run(arguments, "ulimit -f 4;");
-  expectTold(outcome, "frames/");
+  const std::string arguments = "render drop.toml --quiet --size 1280x720 --threads 2 -o run";
+  expectTold(run(arguments, "ulimit -f 4;"), "motion.npz");
+  expectNoHalfFile();
+  expectTold(run(arguments, "ulimit -f 40;"), "frames/");
   expectNoHalfFile();
   EXPECT_TRUE(folderBytes(folder / "run" / "frames").empty());
   EXPECT_EQ(run(arguments).code, 0);
