@@ -106,9 +106,9 @@ ExitCode diverge(const DivergeOptions& options) {
 
 constexpr const char* kDivergeHelp =
     "Where two runs part: the first frame, body and quantity; exit code 3 when they differ\n\n"
-    "A and B are folders of dbd simulate or dbd render, or tables of simulate --trajectory: of "
-    "two\n"
-    "accuracies, machines or versions. Folders are compared by the hashes of their states; the\n"
+    "A and B are folders of dbd simulate or dbd render, or files of simulate --trajectory or\n"
+    "--motion: of two accuracies, machines or versions. Folders are compared by the hashes of "
+    "their states; the\n"
     "bodies are found by simulating again what this program gives the same hashes for. Writes\n"
     "diverge.json, difference.csv and .png, and parting.png where the scene is known.";
 
@@ -117,7 +117,8 @@ constexpr const char* kDivergeHelp =
 void addDiverge(CLI::App& line, Action& action) {
   auto options = std::make_shared<DivergeOptions>();
   CLI::App* command = line.add_subcommand("diverge", kDivergeHelp);
-  command->add_option("A", options->a, "A folder with a run.json, or a trajectory")->required();
+  command->add_option("A", options->a, "A folder with a run.json, a trajectory, or a motion")
+      ->required();
   command->add_option("B", options->b, "Another")->required();
   command
       ->add_option("--scene", options->scene,

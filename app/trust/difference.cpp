@@ -65,10 +65,11 @@ std::array<double, 13> numbersOf(const TrackFrame& frame, std::size_t body) {
 }
 
 // Takes over the largest difference of a body.
-void compare(const TrackFrame& a, const TrackFrame& b, std::size_t body, Parting& parting) {
+void compare(const TrackFrame& a, const TrackFrame& b, std::size_t body, std::size_t numbers,
+             Parting& parting) {
   const std::array<double, 13> was = numbersOf(a, body), is = numbersOf(b, body);
   bool differs = false;
-  for (std::size_t k = 0; k < was.size(); ++k) {
+  for (std::size_t k = 0; k < numbers; ++k) {
     if (std::bit_cast<std::uint64_t>(was[k]) == std::bit_cast<std::uint64_t>(is[k])) continue;
     differs = true;
     const bool isLarger = std::abs(was[k] - is[k]) > std::abs(parting.a - parting.b);
@@ -153,10 +154,13 @@ int firstDifference(std::span<const std::string> a, std::span<const std::string>
 }
 
 Parting firstParting(const Track& a, const Track& b) {
+  constexpr std::size_t kPoseNumbers = 7;
+  const bool both = a.hasVelocities && b.hasVelocities;
+  const std::size_t numbers = both ? kQuantities.size() : kPoseNumbers;
   for (int f = 0; f < std::min(a.frameCount(), b.frameCount()); ++f) {
     Parting parting;
     for (std::size_t body = 1; body < a.frames[f].poses.size(); ++body) {
-      compare(a.frames[f], b.frames[f], body, parting);
+      compare(a.frames[f], b.frames[f], body, numbers, parting);
     }
     parting.frame = f;
     if (parting.bodies > 0) return parting;

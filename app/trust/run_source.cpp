@@ -40,7 +40,7 @@ RunSource openRun(const fs::path& path, const std::string& scene) {
   source.path = path;
   if (!fs::exists(path)) throw scenes::InputError("diverge: no file or folder " + path.string());
   if (!fs::is_directory(path)) {
-    source.track = readTrajectory(path);
+    source.track = path.extension() == ".npz" ? readMotion(path) : readTrajectory(path);
     if (!scene.empty()) source.scene = scenes::readScene(scene);
     return source;
   }
@@ -48,7 +48,7 @@ RunSource openRun(const fs::path& path, const std::string& scene) {
   if (!source.record) {
     throw scenes::InputError(
         fmt::format("diverge: {} holds no readable run.json: expected a folder of dbd simulate or "
-                    "dbd render, or a table of simulate --trajectory",
+                    "dbd render, or what simulate --trajectory or --motion writes",
                     path.string()));
   }
   if (source.record->stateHashes.empty()) {

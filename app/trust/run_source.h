@@ -1,4 +1,4 @@
-// A run that was made some time, somewhere: an output folder, or the table of its trajectory.
+// A run that was made some time, somewhere: an output folder, or its trajectory or motion.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct RunSource {
   int frameCount() const;
 };
 
-// A folder with a run.json, or a trajectory. `scene`: what it shows; empty: as run.json names it,
+// A folder with a run.json, a trajectory or a motion. `scene`: what it shows; empty: as run.json names it,
 // where that is still the same text. Throws InputError.
 RunSource openRun(const std::filesystem::path& path, const std::string& scene);
 

@@ -22,7 +22,8 @@ struct TrackFrame {
 struct Track {
   std::vector<std::string> names;  // of the bodies; the world is the first
   std::vector<TrackFrame> frames;
-  PlayEnd end;  // of runs that were simulated here
+  bool hasVelocities = true;  // a motion may be kept without: then they are zero
+  PlayEnd end;                // of runs that were simulated here
 
   int frameCount() const { return static_cast<int>(frames.size()); }
 };
@@ -37,5 +38,8 @@ Track follow(
 
 // What `dbd simulate --trajectory` writes. Throws InputError with the line where it is none.
 Track readTrajectory(const std::filesystem::path& file);
+
+// What `dbd simulate --motion` and `dbd render` write, app/run/motion.h. Throws InputError.
+Track readMotion(const std::filesystem::path& file);
 
 }  // namespace app

@@ -70,6 +70,15 @@ TEST_F(Diverge, FindsTheBodiesOfFoldersAndDrawsThem) {
   }
 }
 
+TEST_F(Diverge, ReadsMotions) {
+  ASSERT_EQ(run("simulate drop.toml --quiet -o a --motion a.npz --trajectory a.csv").code, 0);
+  ASSERT_EQ(run("simulate drop.toml --quiet -o b --motion b.npz --accuracy 1e-3").code, 0);
+  EXPECT_EQ(run("diverge a.npz a.csv").code, 0);
+  const Outcome outcome = run("diverge a.npz b.npz --progress none");
+  EXPECT_EQ(outcome.code, 3) << outcome.errors;
+  EXPECT_NE(outcome.output.find("body 'ball': "), std::string::npos) << outcome.output;
+}
+
 // What another program ran is compared by its hashes alone.
 TEST_F(Diverge, SaysWhereBodiesAreNotKnown) {
   simulate("a");
