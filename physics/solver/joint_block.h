@@ -66,8 +66,8 @@ static constexpr bool isLimit(const JointShape& shape) {
 struct JointBelow {
   int to, block, at;
 };
-// Column i: below[start...], and of each pair p <= q of these where the block that (q, p) goes to
-// begins, -1 on the diagonal, at updates + q (q + 1) / 2 + p.
+// Column i: below[start...], and of each pair p <= q of these the block that (q, p) goes to, -1 on
+// the diagonal, at updates + q (q + 1) / 2 + p of `updates`; where it begins, of `updatesAt`.
 struct JointColumn {
   int start = 0, count = 0, updates = 0;
 };

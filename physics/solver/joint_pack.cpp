@@ -90,7 +90,7 @@ JointView<W> JointPack<W>::view() {
           topology_->shapes.data(),
           topology_->columns.data(),
           topology_->below.data(),
-          topology_->updates.data(),
+          topology_->updatesAt.data(),
           topology_->meetings.data(),
           &open_,
           used_.data(),

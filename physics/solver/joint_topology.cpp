@@ -180,7 +180,7 @@ void fill(JointTopology& t, Blocks& blocks) {
   t.meetings.resize(blocks.of.size());
   std::vector<int> at(t.meetings.size());
   for (const JointBelow& below : t.below) at[below.block] = below.at;
-  for (int& block : t.updates) block = block < 0 ? block : at[block];
+  for (const int block : t.updates) t.updatesAt.push_back(block < 0 ? block : at[block]);
 }
 
 std::vector<int> signatureOf(std::span<const JointRef> refs,

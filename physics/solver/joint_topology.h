@@ -23,7 +23,8 @@ struct JointTopology {
   std::vector<JointShape> shapes;
   std::vector<JointColumn> columns;
   std::vector<JointBelow> below;
-  std::vector<int> updates;
+  std::vector<int> updates;            // blocks, by column
+  std::vector<int> updatesAt;          // where those begin in a factor
   std::vector<JointMeeting> meetings;  // by block
   int lower = 0;                       // numbers of the blocks below the diagonal
   bool isTree = false;                 // no two rows can say the same

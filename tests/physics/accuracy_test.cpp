@@ -214,6 +214,44 @@ TEST(Accuracy, GoesStraightThroughAPoseOfDependentRows) {
   EXPECT_LT(lowest, -0.5);  // it did pass
 }
 
+// Windows beside each other: what eliminating one row leaves couples others that share no body.
+TEST(Accuracy, OfARowOfWindowsIsKept) {
+  const auto run = [](double accuracy) {
+    World world(asking(accuracy));
+    constexpr int kBars = 6;
+    std::vector<BodyId> uprights, tops;
+    const auto bar = [&](const Vec3& size, const Vec3& x) {
+      BodyDef def;
+      def.shape = Box{size};
+      def.pose.x = x;
+      return world.add(def);
+    };
+    const auto hang = [&](BodyId a, const Vec3& onA, BodyId b, const Vec3& onB) {
+      BallSocketDef joint;
+      joint.bodies = {a, b};
+      joint.anchors = {onA, onB};
+      world.add(joint);
+    };
+    for (int i = 0; i < kBars; ++i) {
+      uprights.push_back(bar({0.04, 1, 0.04}, {1.0 * i, -0.5, 0}));
+      hang(kWorldBody, {1.0 * i, 0, 0}, uprights[i], {0, 0.5, 0});
+      if (i == 0) continue;
+      tops.push_back(bar({1, 0.04, 0.04}, {i - 0.5, -1, 0}));
+      hang(uprights[i - 1], {0, -0.5, 0}, tops.back(), {-0.5, 0, 0});
+      hang(tops.back(), {0.5, 0, 0}, uprights[i], {0, -0.5, 0});
+    }
+    for (const BodyId b : uprights) world.setVelocity(b, {{0.5, 0, 0}, {0, 0, 1}});
+    for (const BodyId b : tops) world.setVelocity(b, {{1, 0, 0}, {0, 0, 0}});
+    const std::vector<Pose> pose = after(world, 1);
+    for (const KindError& error : world.constraintErrors()) EXPECT_LT(error.largest, 1e-9);
+    return pose;
+  };
+  const std::vector<Pose> asked = run(1e-4), finer = run(1e-6);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_LT((asked[i].x - finer[i].x).norm(), 3e-4 * 5) << i;  // of 5 m
+  }
+}
+
 // Heights between impacts, against parabolas: v^2/(2 g) e^2 of the one before.
 TEST(Accuracy, OfABouncingBallIsThatOfItsParabolas) {
   constexpr double e = 0.8, drop = 1;
