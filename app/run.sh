@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is needed, builds dbd, renders the shown scenes into out/scenes, measures what
-# accuracy costs into out/study and what effects cost into out/study_effects, runs hard cases into
-# out/stability, makes the paper's figures in out/, and ends with the path of out/index.html.
+# Installs what is needed, builds dbd, renders the shown scenes into out/scenes, makes the paper's
+# figures in out/, measures what accuracy costs into out/study and what effects cost into
+# out/study_effects, and runs hard cases into out/stability. out/index.html has what is done so far.
 # Options go to every `dbd render` and to `dbd figures`: ./app/run.sh --quality draft
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -31,20 +31,31 @@ render() {
   [ "$code" = 0 ] || failed+=("$scene (exit code $code)")
 }
 
+# The page of what there is.
+show() { "$root/build/dbd" gallery "$root/out" > /dev/null || true; }
+
 install_packages
 build "$root/build" dbd
 for i in "${!scenes[@]}"; do
   say "Scene $((i + 1)) of ${#scenes[@]}: ${scenes[$i]}"
   render "${scenes[$i]}" "$@"
+  show
+  if [ "$i" = 0 ]; then
+    say "A first film: $root/out/scenes/${scenes[0]}/${scenes[0]}.mp4"
+    echo "   What is done so far: $root/out/index.html (a reload shows more)"
+  fi
 done
-say "What accuracy costs in time: the quick study"
-run "accuracy study" study accuracy --quick -o "$root/out/study"
-say "What each effect costs: the quick study"
-run "effects study" study effects --quick -o "$root/out/study_effects"
-say "Hard cases: the quick ones"
-run "stability study" study stability --quick -o "$root/out/stability"
 say "Figures"
 run figures figures -o "$root/out" "$@"
+say "What accuracy costs in time: the quick study"
+run "accuracy study" study accuracy --quick -o "$root/out/study"
+show
+say "What each effect costs: the quick study"
+run "effects study" study effects --quick -o "$root/out/study_effects"
+show
+say "Hard cases: the quick ones"
+run "stability study" study stability --quick -o "$root/out/stability"
+show
 if [ ${#failed[@]} -gt 0 ]; then
   echo "Not as it should be: ${failed[*]}" >&2
   echo "$root/out/index.html"

@@ -8,6 +8,7 @@
 #include "app/base/html.h"
 #include "app/base/output_file.h"
 #include "app/commands/commands.h"
+#include "app/figure/figure_record.h"
 #include "app/run/run_page.h"
 
 namespace app {
@@ -32,6 +33,10 @@ ExitCode gallery(const GalleryOptions& options) {
   if (!fs::is_directory(options.folder)) {
     throw scenes::InputError("gallery: no folder " + options.folder);
   }
+  if (options.names.empty() && holdsParts(options.folder)) {
+    say(writeFigurePage(options.folder).string() + "\n");
+    return ExitCode::kDone;
+  }
   const std::string runs = showRuns(chosenFolders(options), "");
   if (runs.empty()) throw scenes::InputError("gallery: nothing was rendered in " + options.folder);
   const std::string body =
@@ -50,7 +55,9 @@ ExitCode gallery(const GalleryOptions& options) {
 void addGallery(CLI::App& line, Action& action) {
   auto options = std::make_shared<GalleryOptions>();
   CLI::App* command = line.add_subcommand(
-      "gallery", "Write DIR/index.html that shows what was rendered into DIR/NAME");
+      "gallery",
+      "Write DIR/index.html that shows what was rendered into DIR/NAME, or the films, figures and "
+      "studies that are in DIR");
   command->add_option("DIR", options->folder, "Folder of rendered folders")->required();
   command->add_option("NAME", options->names, "Which, and in this order [all]");
   command->callback([options, &action] { action = [options] { return gallery(*options); }; });

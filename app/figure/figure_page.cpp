@@ -120,11 +120,26 @@ std::string contents(const std::vector<FigureRecord>& records) {
   return html + "</table></section>\n";
 }
 
+std::string showFigures(const std::vector<FigureRecord>& records) {
+  if (records.empty()) return "";
+  std::string html =
+      "<h1 id=\"figures\">The figures</h1>\n<p class=\"quiet\">What the paper says each shows, "
+      "what "
+      "was measured, and whether that holds.</p>\n" +
+      contents(records);
+  for (const FigureRecord& record : records) html += showFigure(record);
+  return html;
+}
+
 // What was rendered into DIR/scenes, as app/run.sh does.
 std::string showScenes(const fs::path& folder) {
   if (!fs::is_directory(folder / "scenes")) return "";
   const std::string runs = showRuns(runFolders(folder / "scenes"), "scenes/");
-  return runs.empty() ? "" : "<h1 id=\"scenes\">Scenes of the library</h1>\n" + runs;
+  return runs.empty()
+             ? ""
+             : "<h1 id=\"scenes\">Scenes of the library</h1>\n<p class=\"quiet\">What each "
+               "expects of itself was checked along its whole run.</p>\n" +
+                   runs;
 }
 
 // A study below DIR, as app/run.sh makes it.
@@ -186,18 +201,32 @@ std::string showStability(const fs::path& folder) {
 
 }  // namespace
 
+bool holdsParts(const fs::path& folder) {
+  return fs::is_directory(folder / "scenes") || !recordsIn(folder).empty();
+}
+
 fs::path writeFigurePage(const fs::path& folder) {
-  const std::vector<FigureRecord> records = recordsIn(folder);
-  std::string body =
-      "<h1>Displacement based dynamics: the figures</h1>\n<p class=\"quiet\">Each figure was "
-      "simulated, measured and drawn on this machine: what the paper says it shows, what was "
-      "measured, and whether that holds.</p>\n" +
-      contents(records);
-  for (const FigureRecord& record : records) body += showFigure(record);
-  for (const ShownStudy& study : kStudies) body += showStudy(folder, study);
-  body += showStability(folder) + showScenes(folder);
+  struct Part {
+    std::string id, name, html;
+  };
+  std::vector<Part> parts{{"scenes", "Films", showScenes(folder)},
+                          {"figures", "The paper's figures", showFigures(recordsIn(folder))}};
+  for (const ShownStudy& study : kStudies) {
+    parts.push_back({study.folder, study.title, showStudy(folder, study)});
+  }
+  parts.push_back({"stability", "Hard cases", showStability(folder)});
+  std::erase_if(parts, [](const Part& part) { return part.html.empty(); });
+  std::string links, body;
+  for (const Part& part : parts) {
+    links +=
+        fmt::format("{}<a href=\"#{}\">{}</a>", links.empty() ? "" : " · ", part.id, part.name);
+    body += part.html;
+  }
   const fs::path page = folder / "index.html";
-  writeFile(page, htmlPage("Displacement based dynamics: the figures", body));
+  writeFile(page, htmlPage("Displacement based dynamics",
+                           "<h1>Displacement based dynamics</h1>\n<p class=\"quiet\">Simulated, "
+                           "measured and drawn on this machine.</p>\n<p>" +
+                               links + "</p>\n" + body));
   return page;
 }
 

@@ -29,7 +29,9 @@ void addVerdict(const scenes::FigureVerdict& verdict, FigureRecord& record);
 std::optional<FigureRecord> readFigureRecord(const std::filesystem::path& file);
 void writeFigureRecord(const FigureRecord& record, const std::filesystem::path& folder);
 
-// DIR/index.html from every record in DIR. Returns its path.
+// Whether there is a figure in DIR, or DIR/scenes.
+bool holdsParts(const std::filesystem::path& folder);
+// DIR/index.html of all that is there: films of DIR/scenes, figures, studies. Returns its path.
 std::filesystem::path writeFigurePage(const std::filesystem::path& folder);
 
 }  // namespace app

@@ -132,5 +132,23 @@ TEST_F(Golden, GalleryShowsWhatWasRendered) {
   }
 }
 
+// As app/run.sh has it: the page of what is done so far, its parts linked at the top.
+TEST_F(Golden, GalleryOfAWholeOutputLinksItsParts) {
+  const std::string draw =
+      "render drop.toml --quiet --quality draft --size 160x90 -o out/scenes/drop";
+  ASSERT_EQ(run(draw).code, 0);
+  ASSERT_EQ(run("gallery out").code, 0);
+  const std::string first = readBytes(folder / "out" / "index.html");
+  EXPECT_NE(first.find("scenes/drop/frames/00010.png"), std::string::npos);
+  EXPECT_NE(first.find("<a href=\"#scenes\">Films</a>"), std::string::npos);
+  EXPECT_EQ(first.find("href=\"#study\""), std::string::npos);
+  fs::create_directories(folder / "out" / "study");
+  writeText(folder / "out" / "study" / "index.html", "a study");
+  ASSERT_EQ(run("gallery out").code, 0);
+  const std::string more = readBytes(folder / "out" / "index.html");
+  EXPECT_NE(more.find("href=\"#study\""), std::string::npos);
+  EXPECT_LT(more.find("id=\"scenes\""), more.find("id=\"study\""));
+}
+
 }  // namespace
 }  // namespace tests
