@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <new>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -23,18 +25,43 @@ constexpr const char* kFooter =
     "4 the environment (disk, permissions, ffmpeg), 130 interrupted (run it again to go on).\n"
     "DBD_HOME names the folder that holds scenes/ and assets/, where they are not found.\n";
 
-// An unknown command is told before the parser sees it: it would only say that one is required.
-void requireKnownCommand(const CLI::App& line, int argc, const char* const* argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> known;
-  for (const CLI::App* command : line.get_subcommands({})) known.push_back(command->get_name());
-  const std::string word = argv[1];
-  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+std::string suggestion(const std::string& word, const std::vector<std::string>& known,
+                       const std::string& all) {
   const std::string nearest = nearestWord(word, known);
-  throw scenes::InputError(
-      fmt::format("no command '{}'; {}", word,
-                  nearest.empty() ? fmt::format("the commands are {}", fmt::join(known, ", "))
-                                  : fmt::format("did you mean '{}'?", nearest)));
+  if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
+  return fmt::format("{} {}", all, fmt::join(known, ", "));
+}
+
+std::vector<std::string> optionsOf(const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  return known;
+}
+
+// The first command or option of these arguments that there is not, and the nearest; empty: none.
+std::string unknownWord(const CLI::App& line, std::span<const char* const> arguments) {
+  const CLI::App* command = &line;
+  for (const char* argument : arguments) {
+    const std::string word = argument, of = command == &line ? "" : command->get_name() + ": ";
+    std::vector<std::string> commands;
+    for (const CLI::App* next : command->get_subcommands({})) commands.push_back(next->get_name());
+    if (word.starts_with("--") && word.size() > 2) {
+      const std::string option = word.substr(0, word.find('='));
+      const std::vector<std::string> known = optionsOf(*command);
+      if (std::find(known.begin(), known.end(), option) != known.end()) continue;
+      return fmt::format("{}no option '{}'; {}", of, option,
+                         suggestion(option, known, "its options are"));
+    }
+    if (commands.empty() || word.starts_with("-")) continue;
+    if (std::find(commands.begin(), commands.end(), word) == commands.end()) {
+      return fmt::format("{}no command '{}'; {}", of, word,
+                         suggestion(word, commands, "the commands are"));
+    }
+    command = command->get_subcommand(word);
+  }
+  return "";
 }
 
 ExitCode chooseAndRun(int argc, const char* const* argv) {
@@ -58,7 +85,8 @@ ExitCode chooseAndRun(int argc, const char* const* argv) {
   addDoctor(line, action);
   addGallery(line, action);
   addWords(line, action);
-  requireKnownCommand(line, argc, argv);
+  addCompletion(line, action);
+  const std::span arguments(argv + 1, static_cast<std::size_t>(std::max(argc - 1, 0)));
   try {
     line.parse(argc, argv);
   } catch (const CLI::Success& help) {  // --help, --version
@@ -67,6 +95,8 @@ ExitCode chooseAndRun(int argc, const char* const* argv) {
     say(text.str());
     return ExitCode::kDone;
   } catch (const CLI::ParseError& error) {
+    const std::string unknown = unknownWord(line, arguments);
+    if (!unknown.empty()) throw scenes::InputError(unknown);
     throw scenes::InputError(
         fmt::format("{}\nRun 'dbd --help' or 'dbd COMMAND --help'.", error.what()));
   }

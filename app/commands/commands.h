@@ -21,5 +21,7 @@ void addDiverge(CLI::App& line, Action& action);
 void addTrust(CLI::App& line, Action& action);
 void addWords(CLI::App& line, Action& action);
 void addStudy(CLI::App& line, Action& action);
+// Of all commands that the line has: the last to be added.
+void addCompletion(CLI::App& line, Action& action);
 
 }  // namespace app

@@ -31,7 +31,37 @@ TEST_F(CommandLine, AnUnknownSceneIsRefused) {
 }
 
 TEST_F(CommandLine, AnUnknownOptionIsRefused) {
-  expectRefused("render drop.toml --vdeo", "--vdeo");
+  expectRefused("render drop.toml --vdeo", "render: no option '--vdeo'; did you mean '--video'?");
+  expectRefused("study accurcy", "study: no command 'accurcy'; did you mean 'accuracy'?");
+  expectRefused("list --zzz", "list: no option '--zzz'; its options are --help, --json");
+}
+
+// What bash offers after these words.
+TEST_F(CommandLine, TheShellCompletesCommandsOptionsAndScenes) {
+  writeText(folder / "dbd.bash", run("completion bash").output);
+  const auto offers = [&](const std::string& words, int at) {
+    writeText(folder / "ask.sh", ". ./dbd.bash\nCOMP_WORDS=(" + words +
+                                     ")\nCOMP_CWORD=" + std::to_string(at) +
+                                     "\n_dbd\nprintf '%s\\n' \"${COMPREPLY[@]}\" > answer\n");
+    EXPECT_EQ(std::system(("cd '" + folder.string() + "' && bash ask.sh").c_str()), 0);
+    return readBytes(folder / "answer");
+  };
+  EXPECT_EQ(offers("dbd sim", 1), "simulate\n");
+  EXPECT_EQ(offers("dbd study acc", 2), "accuracy\n");
+  EXPECT_EQ(offers("dbd render wrecking", 2), "wrecking_ball\n");
+  EXPECT_EQ(offers("dbd render pyramid --vid", 3), "--video\n");
+  EXPECT_EQ(offers("dbd study accuracy --coll", 3), "--collect\n");
+  EXPECT_NE(run("completion fish").output.find("-n '__fish_seen_subcommand_from render' -l video"),
+            std::string::npos);
+  expectRefused("completion tcsh", "SHELL");
+}
+
+TEST_F(CommandLine, TheManualPageHasEveryCommandAndOption) {
+  const std::string page = run("man").output;
+  for (const char* part :
+       {".TH DBD 1", ".SS dbd study accuracy\n", "\\-\\-video", ".SH EXIT STATUS"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
 }
 
 TEST_F(CommandLine, NoCommandIsRefused) { expectRefused("", "ubcommand"); }

@@ -24,6 +24,7 @@ const std::map<std::string, std::string> kShort = {
     {"race", " --seconds 0.05 --size 300x120 --quality draft --progress none"},
     {"study", " --quick --progress none"},
     {"words", ""},
+    {"completion", ""},
     {"trust", " --set duration=0.05 --size 96x64 --quality draft --progress none"},
     {"diverge", " --size 96x64 --quality draft --progress none"},
 };
