@@ -151,7 +151,8 @@ class Include : public testing::Test {
   }
   Scene read(const std::string& name) const { return readScene((folder_ / name).string()); }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / "include_test";
+  fs::path folder_ =  // of this test alone: others run beside it
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(Include, PutsTablesBeforeTheFilesOwnWhichCount) {
