@@ -51,8 +51,8 @@ void SmallSteps::Impl::learn(Model& w) {
   finer.clear();
   for (const BodyId root : roots) {
     const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
-    // Sweeps leave meshes strained, by no more than that.
-    const bool isSwept = mesh.points && w.settings.accuracy.value_or(1) >= kLargestStrain;
+    // Sweeps leave meshes strained, by no more than that; within three times is as asked.
+    const bool isSwept = mesh.points && 3 * w.settings.accuracy.value_or(1) >= kLargestStrain;
     const bool isDirect = mesh.fill <= (isSwept ? kMostFillOfPoints : kMostFill);
     if (mesh.points || !isDirect) {
       deformables.emplace_back(rows[root], w.kinds, w.bodies.inverse, isDirect);
