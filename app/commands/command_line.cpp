@@ -32,14 +32,6 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return fmt::format("{} {}", all, fmt::join(known, ", "));
 }
 
-std::vector<std::string> optionsOf(const CLI::App& command) {
-  std::vector<std::string> known;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  }
-  return known;
-}
-
 // The first command or option of these arguments that there is not, and the nearest; empty: none.
 std::string unknownWord(const CLI::App& line, std::span<const char* const> arguments) {
   const CLI::App* command = &line;
@@ -49,7 +41,7 @@ std::string unknownWord(const CLI::App& line, std::span<const char* const> argum
     for (const CLI::App* next : command->get_subcommands({})) commands.push_back(next->get_name());
     if (word.starts_with("--") && word.size() > 2) {
       const std::string option = word.substr(0, word.find('='));
-      const std::vector<std::string> known = optionsOf(*command);
+      const std::vector<std::string> known = longNames(*command);
       if (std::find(known.begin(), known.end(), option) != known.end()) continue;
       return fmt::format("{}no option '{}'; {}", of, option,
                          suggestion(option, known, "its options are"));

@@ -15,14 +15,6 @@ namespace {
 
 constexpr const char* kShells[] = {"bash", "zsh", "fish"};
 
-std::vector<std::string> longNames(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
 bool takesScene(const CLI::App& command) {
   const CLI::Option* scene = command.get_option_no_throw("SCENE");
   return scene != nullptr || command.get_option_no_throw("scene") != nullptr;

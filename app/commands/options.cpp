@@ -29,6 +29,14 @@ ProgressMode CommonOptions::progressMode() const {
   return quiet ? ProgressMode::kNone : mode;
 }
 
+std::vector<std::string> longNames(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
 std::vector<std::string> wholeLibrary() {
   std::vector<std::string> names = scenes::libraryScenes();
   if (names.empty()) throw scenes::InputError(scenes::nothingIn(scenes::libraryFolder()));

@@ -34,6 +34,9 @@ struct CommonOptions {
   ProgressMode progressMode() const;
 };
 
+// "--video" and the others of one command.
+std::vector<std::string> longNames(const CLI::App& command);
+
 // Every scene of the library; throws InputError where there is none.
 std::vector<std::string> wholeLibrary();
 

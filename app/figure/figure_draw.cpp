@@ -6,6 +6,7 @@
 #include "app/base/interrupt.h"
 #include "app/run/frame_folder.h"
 #include "app/run/pipeline.h"
+#include "app/run/whole_frames.h"
 #include "render/film.h"
 #include "render/page.h"
 #include "render/png.h"
@@ -100,59 +101,34 @@ render::Page composeFigure(const FigurePlan& plan, const FigureShots& shots,
   return page;
 }
 
-// Frames of the film whose cells are all drawn become pages, in order, while others are drawn.
-class FilmFrames {
- public:
-  FilmFrames(const FigurePlan& plan, const FrameFolder& folder) : plan_(plan), folder_(folder) {}
-
-  void take(int job, const render::Image& image) {  // from any thread
-    const std::lock_guard lock(mutex_);
-    done_[job] = image;
+render::Page filmPage(const FigurePlan& plan, int printed, std::vector<render::Image> cells) {
+  render::Page page = blankPage(plan.film);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const Rectangle& place = plan.film.cells[c];
+    page.tiles.push_back({place.x, place.y, std::move(cells[c])});
+    const FigureTile& tile = plan.filmTiles[c];
+    const scenes::FigurePanel& panel = plan.sheet.panels[static_cast<std::size_t>(tile.index)];
+    const scenes::Scene& scene = plan.sheet.runs[static_cast<std::size_t>(panel.run)].scene;
+    const int frame = plan.frameInFilm(tile.index, printed);
+    addStamp(scenes::stampOf(panel, scene, frame, true), plan.film, place, page);
   }
-
-  void print(Progress& progress) {
-    const int cells = static_cast<int>(plan_.filmTiles.size());
-    while (std::optional<render::Page> page = next(cells)) {
-      render::writePng(printer_.print(*page), folder_.file(printed_ - 1));
-      progress.advance();
-    }
-  }
-
- private:
-  std::optional<render::Page> next(int cells) {
-    const std::lock_guard lock(mutex_);
-    for (int cell = 0; cell < cells; ++cell) {
-      if (!done_.contains(printed_ * cells + cell)) return std::nullopt;
-    }
-    render::Page page = blankPage(plan_.film);
-    for (int cell = 0; cell < cells; ++cell) {
-      const auto c = static_cast<std::size_t>(cell);
-      const Rectangle& place = plan_.film.cells[c];
-      const auto image = done_.extract(printed_ * cells + cell);
-      page.tiles.push_back({place.x, place.y, std::move(image.mapped())});
-      const FigureTile& tile = plan_.filmTiles[c];
-      const scenes::FigurePanel& panel = plan_.sheet.panels[static_cast<std::size_t>(tile.index)];
-      const scenes::Scene& scene = plan_.sheet.runs[static_cast<std::size_t>(panel.run)].scene;
-      const int frame = plan_.frameInFilm(tile.index, printed_);
-      addStamp(scenes::stampOf(panel, scene, frame, true), plan_.film, place, page);
-    }
-    ++printed_;
-    return page;
-  }
-
-  const FigurePlan& plan_;
-  const FrameFolder& folder_;
-  render::PagePrinter printer_;
-  std::mutex mutex_;
-  std::map<int, render::Image> done_;  // by frame times cells plus cell
-  int printed_ = 0;
-};
+  return page;
+}
 
 bool drawFilm(const FigurePlan& plan, FigureShots& shots, const FigureDrawing& drawing,
               const FrameFolder& folder) {
   const int frames = plan.filmFrames(), cells = static_cast<int>(plan.filmTiles.size());
   Progress progress(drawing.progress, plan.sheet.name, "filming", frames);
-  FilmFrames film(plan, folder);
+  WholeFrames film(std::vector<bool>(plan.filmTiles.size(), true));
+  render::PagePrinter printer;
+  int printed = 0;
+  const auto print = [&] {
+    while (auto images = film.next()) {
+      const render::Page page = filmPage(plan, printed, std::move(*images));
+      render::writePng(printer.print(page), folder.file(printed++));
+      progress.advance();
+    }
+  };
   Pipeline pipeline(rendererOptions(plan.film.cells.front(), render::Quality::kStandard),
                     drawing.threads,
                     [&](int job, const render::Image& image) { film.take(job, image); });
@@ -160,12 +136,12 @@ bool drawFilm(const FigurePlan& plan, FigureShots& shots, const FigureDrawing& d
     if (interrupted()) return false;
     for (int cell = 0; cell < cells; ++cell) {
       auto& pictures = shots.film[static_cast<std::size_t>(cell)];
-      pipeline.draw(frame * cells + cell, std::move(pictures[static_cast<std::size_t>(frame)]));
+      pipeline.draw(film.job(frame, cell), std::move(pictures[static_cast<std::size_t>(frame)]));
     }
-    film.print(progress);
+    print();
   }
   pipeline.finish();
-  film.print(progress);
+  print();
   progress.finish();
   return true;
 }

@@ -2,13 +2,12 @@
 #include "app/race/race_film.h"
 
 #include <algorithm>
-#include <map>
-#include <mutex>
 
 #include "app/base/interrupt.h"
 #include "app/commands/exit_code.h"
 #include "app/run/frame_folder.h"
 #include "app/run/pipeline.h"
+#include "app/run/whole_frames.h"
 #include "render/film.h"
 #include "render/png.h"
 #include "scenes/view/view.h"
@@ -68,56 +67,6 @@ void dropWhatIsOutOfSight(render::Picture& picture) {
   });
 }
 
-// Frames whose panels are all drawn become pages, in order, while others are drawn.
-class RacePages {
- public:
-  RacePages(const Race& race, const RaceLimits& limits, const RaceLayout& layout,
-            const FrameFolder& folder)
-      : race_(race), limits_(limits), layout_(layout), folder_(folder) {}
-
-  void take(int job, const render::Image& image) {  // from any thread
-    const std::lock_guard lock(mutex_);
-    done_[job] = image;
-  }
-
-  void print(Progress& progress) {
-    std::vector<render::Image> images;
-    while (printed_ < race_.frames && next(images)) {
-      const render::Page page = racePage(race_, limits_, layout_, printed_, std::move(images));
-      render::writePng(printer_.print(page), folder_.file(printed_));
-      ++printed_;
-      progress.advance();
-    }
-  }
-
- private:
-  int job(int panel) const { return printed_ * layout_.panels + panel; }
-
-  bool next(std::vector<render::Image>& images) {
-    const std::lock_guard lock(mutex_);
-    for (int panel = 0; panel < layout_.panels; ++panel) {
-      if (race_.tracks[static_cast<std::size_t>(panel)].ran() && !done_.contains(job(panel))) {
-        return false;
-      }
-    }
-    images.assign(static_cast<std::size_t>(layout_.panels), {});
-    for (int panel = 0; panel < layout_.panels; ++panel) {
-      auto image = done_.extract(job(panel));
-      if (!image.empty()) images[static_cast<std::size_t>(panel)] = std::move(image.mapped());
-    }
-    return true;
-  }
-
-  const Race& race_;
-  const RaceLimits& limits_;
-  const RaceLayout& layout_;
-  const FrameFolder& folder_;
-  render::PagePrinter printer_;
-  std::mutex mutex_;
-  std::map<int, render::Image> done_;  // by frame times panels plus panel
-  int printed_ = 0;
-};
-
 bool drawFrames(const Race& race, const RaceLimits& limits, const RaceDrawing& drawing,
                 const RaceLayout& layout, const FrameFolder& folder) {
   scenes::ViewOptions options;
@@ -128,7 +77,20 @@ bool drawFrames(const Race& race, const RaceLimits& limits, const RaceDrawing& d
     replays.push_back(track.ran() ? std::make_unique<Replay>(race.scene, track) : nullptr);
   }
   Progress progress(drawing.progress, race.scene.name, "drawing", race.frames);
-  RacePages pages(race, limits, layout, folder);
+  std::vector<bool> isDrawn;
+  for (const RaceTrack& track : race.tracks) isDrawn.push_back(track.ran());
+  WholeFrames pages(std::move(isDrawn));
+  render::PagePrinter printer;
+  int printed = 0;
+  const auto print = [&] {
+    for (; printed < race.frames; ++printed) {
+      auto images = pages.next();
+      if (!images) return;
+      const render::Page page = racePage(race, limits, layout, printed, std::move(*images));
+      render::writePng(printer.print(page), folder.file(printed));
+      progress.advance();
+    }
+  };
   Pipeline pipeline({layout.panelWidth, layout.pictureHeight, drawing.quality, ""}, drawing.threads,
                     [&](int job, const render::Image& image) { pages.take(job, image); });
   for (int frame = 0; frame < race.frames; ++frame) {
@@ -138,12 +100,12 @@ bool drawFrames(const Race& race, const RaceLimits& limits, const RaceDrawing& d
       if (replay == nullptr) continue;
       render::Picture picture = scenes::view(replay->show(frame), bounds, options, {});
       dropWhatIsOutOfSight(picture);
-      pipeline.draw(frame * layout.panels + panel, std::move(picture));
+      pipeline.draw(pages.job(frame, panel), std::move(picture));
     }
-    pages.print(progress);
+    print();
   }
   pipeline.finish();
-  pages.print(progress);
+  print();
   progress.finish();
   return true;
 }

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 
 #include "app/base/interrupt.h"
 #include "app/run/pipeline.h"
+#include "app/run/whole_frames.h"
 #include "render/film.h"
 #include "render/page.h"
 #include "render/png.h"
@@ -101,35 +100,23 @@ void markBody(const scenes::Simulation& simulation, physics::BodyId body,
 class SidePages {
  public:
   SidePages(const SideBySide& sides, const SideLayout& layout, const std::vector<int>& frames)
-      : sides_(sides), layout_(layout), frames_(frames) {}
+      : sides_(sides), layout_(layout), frames_(frames), whole_({true, true}) {}
 
-  void take(int job, const render::Image& image) {  // from any thread
-    const std::lock_guard lock(mutex_);
-    done_[job] = image;
-  }
+  WholeFrames& whole() { return whole_; }
   // The pages whose sides are all drawn.
   void print(const std::function<std::filesystem::path(int)>& file, Progress& progress) {
-    render::Page page;
-    while (next(page)) {
-      render::writePng(printer_.print(page), file(frames_[printed_++]));
+    while (auto images = whole_.next()) {
+      const int frame = frames_[printed_++];
+      render::Page page = blank(frame);
+      for (int side = 0; side < kSides; ++side) {
+        page.tiles.push_back({layout_.leftOf(side), layout_.top, std::move((*images)[side])});
+      }
+      render::writePng(printer_.print(page), file(frame));
       progress.advance();
     }
   }
 
  private:
-  bool next(render::Page& page) {
-    if (printed_ == frames_.size()) return false;
-    page = blank(frames_[printed_]);
-    const std::lock_guard lock(mutex_);
-    const int job = static_cast<int>(printed_) * kSides;
-    if (!done_.contains(job) || !done_.contains(job + 1)) return false;
-    for (int side = 0; side < kSides; ++side) {
-      page.tiles.push_back(
-          {layout_.leftOf(side), layout_.top, std::move(done_.extract(job + side).mapped())});
-    }
-    return true;
-  }
-
   render::Page blank(int frame) const {
     render::Page page;
     page.width = layout_.width;
@@ -168,8 +155,7 @@ class SidePages {
   const SideLayout& layout_;
   const std::vector<int>& frames_;
   render::PagePrinter printer_;
-  std::mutex mutex_;
-  std::map<int, render::Image> done_;  // by place of the frame times sides plus side
+  WholeFrames whole_;
   std::size_t printed_ = 0;
 };
 
@@ -192,7 +178,7 @@ bool drawSideBySide(const SideBySide& sides, const SideDrawing& drawing,
                     static_cast<int>(frames.size()));
   Placed shown[] = {{sides.scene, *sides.left}, {sides.scene, *sides.right}};
   Pipeline pipeline(pane, drawing.threads,
-                    [&](int job, const render::Image& image) { pages.take(job, image); });
+                    [&](int job, const render::Image& image) { pages.whole().take(job, image); });
   for (std::size_t f = 0; f < frames.size(); ++f) {
     if (interrupted()) return false;
     for (int side = 0; side < kSides; ++side) {
@@ -200,7 +186,7 @@ bool drawSideBySide(const SideBySide& sides, const SideDrawing& drawing,
       render::Picture picture = scenes::view(simulation, bounds, view, {});
       const bool isApart = sides.marked >= 0 && frames[f] >= sides.marked;
       if (isApart && sides.body > 0) markBody(simulation, sides.body, picture);
-      pipeline.draw(static_cast<int>(f) * kSides + side, std::move(picture));
+      pipeline.draw(pages.whole().job(static_cast<int>(f), side), std::move(picture));
     }
     pages.print(file, progress);
   }
