@@ -27,6 +27,8 @@ video, .poster { width: 100%; height: auto; border-radius: 4px; background: #fff
 summary { cursor: pointer; color: var(--quiet); } details table { font-size: .8rem; } details { overflow-x: auto; }
 figure { margin: 0; } figcaption { color: var(--quiet); font-size: .85rem; }
 @media (max-width: 56rem) { .sides, .three { grid-template-columns: 1fr; } }
+@media (max-width: 40rem) { body { padding: 1.2rem .7rem 3rem; } section { padding: .8rem; }
+  table { display: block; overflow-x: auto; } }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; margin: 0 0 1rem; }
 th, td { text-align: left; padding: .3rem .6rem .3rem 0; border-bottom: 1px solid var(--line);
   vertical-align: top; }

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "app/base/build_info.h"
-#include "app/base/length_text.h"
+#include "app/base/numbers.h"
 #include "app/trust/difference.h"
 
 namespace app {

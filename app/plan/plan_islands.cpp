@@ -1,7 +1,7 @@
 // What a plan says of islands: a line for those that are alike.
 #include <fmt/format.h>
 
-#include "app/base/length_text.h"
+#include "app/base/numbers.h"
 #include "app/plan/plan.h"
 
 namespace app {

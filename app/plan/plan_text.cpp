@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/plan/plan.h"
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 
 namespace app {
 

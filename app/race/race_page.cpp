@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "app/base/numbers.h"
 #include "app/race/race_table.h"
 
 namespace app {
@@ -118,7 +119,7 @@ class Panel {
 
   void numbers(int frame, const RaceSample& sample) {
     const auto measure = [](bool there, double length, double share) {
-      return there ? metresText(length) + ", " + shareText(share) : std::string("none");
+      return there ? lengthText(length) + ", " + shareText(share) : std::string("none");
     };
     number(0, 0, "time",
            fmt::format("{:.3g} ms", recentMilliseconds(track_, frame, race_.scene.fps)), false);

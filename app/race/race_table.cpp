@@ -9,6 +9,7 @@
 
 #include "app/base/build_info.h"
 #include "app/base/machine.h"
+#include "app/base/numbers.h"
 #include "app/run/step_clock.h"
 
 namespace app {
@@ -23,7 +24,7 @@ std::string row(const RaceTrack& track, const Race& race) {
   }
   const RaceWorst worst = worstOf(track);
   const auto measure = [](bool there, double length, double share) {
-    return there ? metresText(length) + ", " + shareText(share) : std::string("none");
+    return there ? lengthText(length) + ", " + shareText(share) : std::string("none");
   };
   std::string text = fmt::format(
       "{:<14} {:>8.3g} {:>8.3g} {:>8.3g}  {:<18} {:<18} {:<16} {}\n", track.entry.title,
@@ -83,14 +84,6 @@ RaceWorst worstOf(const RaceTrack& track) {
   }
   worst.median = medianOf(std::move(milliseconds));
   return worst;
-}
-
-std::string metresText(double metres) {
-  constexpr double kNothing = 1e-6;  // m
-  if (metres < kNothing) return "0 mm";
-  if (metres < 0.1) return fmt::format("{:.2g} mm", 1e3 * metres);
-  if (metres < 1) return fmt::format("{:.0f} mm", 1e3 * metres);
-  return metres < 1e4 ? fmt::format("{:.3g} m", metres) : fmt::format("{:.0e} m", metres);
 }
 
 std::string shareText(double share) {

@@ -14,8 +14,7 @@ struct RaceWorst {                           // over a run
 };
 RaceWorst worstOf(const RaceTrack& track);
 
-std::string metresText(double metres);  // "0.12 mm", "3.4 m"
-std::string shareText(double share);    // "1.2 %", "35 times"
+std::string shareText(double share);  // "1.2 %", "35 times"
 // Of the last half second: a single frame flickers.
 double recentMilliseconds(const RaceTrack& track, int frame, int fps);
 

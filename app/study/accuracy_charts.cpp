@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/study/accuracy.h"
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 
 namespace app {
 

@@ -7,7 +7,7 @@
 #include "app/study/accuracy.h"
 #include "app/study/asked.h"
 #include "app/study/cheapest.h"
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 #include "app/study/shots.h"
 
 namespace app {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "app/base/gnuplot.h"
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 
 namespace app {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 
 namespace app {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/base/numbers.h"
 #include "app/study/effects.h"
-#include "app/study/numbers.h"
 
 namespace app {
 
@@ -24,7 +24,8 @@ std::string ofStep(const EffectResults& results, const Trace& trace) {
 
 std::string savedText(const EffectResults& results, const EffectRow& row) {
   if (row.trace.repeats == 0) return "–";
-  return fmt::format("{:.0f} ± {:.0f} %", 100 * results.saved(row), 100 * results.noise(row));
+  return fmt::format("{:.0f} ± {}", std::round(100 * results.saved(row)) + 0.0,  // no -0
+                     wholePercentText(results.noise(row)));
 }
 
 std::string outcomeText(const Trace& trace) {
@@ -76,7 +77,8 @@ void addBar(const EffectResults& results, const EffectRow& row, double y, Chart&
                          {std::max(0.0, share), y + kHalf},
                          row.trial.kind == Kind::kWithout ? "#0072b2" : "#d55e00"});
   chart.lines.push_back({{share - noise, y}, {share + noise, y}, "#303030", "", 1.4});
-  chart.labels.push_back({{end, y}, fmt::format(" {:.0f} % ", share), share >= 0 ? 'l' : 'r'});
+  chart.labels.push_back(
+      {{end, y}, " " + wholePercentText(share / 100) + " ", share >= 0 ? 'l' : 'r'});
   chart.y.ticks.emplace_back(y, titleOf(row.trial));
   chart.x.low = std::min(chart.x.low, share - noise);
   chart.x.high = std::max(chart.x.high, share + noise);

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/study/accuracy.h"
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 #include "scenes/study/study_option.h"
 
 namespace app {

@@ -10,7 +10,7 @@
 #include "app/base/machine.h"
 #include "app/base/output_file.h"
 #include "app/peers/peer.h"
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 
 namespace app {
 

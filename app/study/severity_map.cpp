@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 #include "app/study/stability.h"
 
 namespace app {

@@ -10,7 +10,7 @@
 #include "app/run/open_renderer.h"
 #include "app/study/accuracy.h"
 #include "app/study/cheapest.h"
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 #include "render/png.h"
 
 namespace app {

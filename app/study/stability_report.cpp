@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 #include "app/study/stability.h"
 
 namespace app {

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "app/base/csv.h"
-#include "app/base/length_text.h"
+#include "app/base/numbers.h"
 #include "app/trust/trust.h"
 
 namespace app {

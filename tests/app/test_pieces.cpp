@@ -6,6 +6,7 @@
 #include "app/base/bounded_queue.h"
 #include "app/base/html.h"
 #include "app/base/nearest.h"
+#include "app/base/numbers.h"
 #include "app/run/frame_range.h"
 #include "scenes/read/input_error.h"
 
@@ -65,4 +66,17 @@ TEST(Html, TextCannotBecomeMarkup) {
 }
 
 }  // namespace
+
+TEST(Numbers, PercentsHaveNoMinusZero) {
+  EXPECT_EQ("0 %", app::wholePercentText(-0.004));
+  EXPECT_EQ("-1 %", app::wholePercentText(-0.006));
+  EXPECT_EQ("12 %", app::wholePercentText(0.12));
+}
+
+TEST(Numbers, LengthsHaveTheUnitThatFits) {
+  EXPECT_EQ("3.2 mm", app::lengthText(0.0032));
+  EXPECT_EQ("1.5 km", app::lengthText(1500));
+  EXPECT_EQ("0 m", app::lengthText(0));
+}
+
 }  // namespace tests

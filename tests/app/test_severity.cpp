@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/study/chart.h"
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 #include "app/study/severity_search.h"
 #include "app/study/stability.h"
 

@@ -1,5 +1,5 @@
 // Numbers as people read them.
-#include "app/study/numbers.h"
+#include "app/base/numbers.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,23 @@
 
 namespace app {
 
+std::string lengthText(double metres) {
+  const struct {
+    const char* unit;
+    double size;
+  } units[] = {{"km", 1e3}, {"m", 1}, {"mm", 1e-3}, {"um", 1e-6}, {"nm", 1e-9}};
+  for (const auto& [unit, size] : units) {
+    if (metres >= size) return fmt::format("{:.3g} {}", metres / size, unit);
+  }
+  return fmt::format("{:.3g} m", metres);
+}
+
 std::string percentText(double share) { return fmt::format("{:g} %", 100 * share); }
+
+std::string wholePercentText(double share) {
+  const double percent = std::round(100 * share);
+  return fmt::format("{:.0f} %", percent == 0 ? 0 : percent);  // -0 is 0
+}
 
 std::string secondsText(double seconds) {
   if (!std::isfinite(seconds)) return "–";
