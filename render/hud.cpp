@@ -17,7 +17,8 @@ constexpr float kHudMargin = 16, kHudPadding = 12, kWidth = 268;
 constexpr float kBarStep = 32, kBarHeight = 6;
 constexpr float kTitleSize = 17, kTitleStep = 26, kRowSize = 14, kRowStep = 20;
 constexpr float kPlotSize = 12, kPlotTitleStep = 18, kPlotHeight = 76, kPlotStep = 108,
-                kGutter = 34;
+                kGutter = 34, kLegendStep = 15, kNameGap = 8;
+constexpr float kInside = kWidth - 2 * kHudPadding;
 
 const Color kHudInk(0.13f, 0.14f, 0.16f, 1), kQuiet(0.42f, 0.43f, 0.46f, 1);
 const Color kPanel(1, 1, 1, 0.86f), kRim(0.80f, 0.81f, 0.83f, 1),
@@ -47,6 +48,9 @@ class Pen {  // a canvas with an origin and a scale
   Pen(Canvas& canvas, float scale) : canvas_(canvas), scale_(scale) {}
   Pixel at(float x, float y) const { return {std::round(x * scale_), std::round(y * scale_)}; }
   float scale() const { return scale_; }
+  float widthOf(const std::string& words, float size) const {
+    return canvas_.widthOf(words, size * scale_) / scale_;
+  }
   Canvas& canvas() const { return canvas_; }
   void left(float x, float y, float size, const Color& color, const std::string& words) const {
     canvas_.text(at(x, y), size * scale_, color, words);
@@ -99,22 +103,66 @@ std::size_t spanOf(const Plot& plot) {
   return span;
 }
 
-void drawPlotTitle(const Pen& pen, const Plot& plot, float x, float y) {
-  const std::string title =
-      plot.unit.empty() ? plot.title : fmt::format("{} [{}]", plot.title, plot.unit);
-  pen.left(x, y, kPlotSize, kHudInk, title);
-  float end = x + kWidth - 2 * kHudPadding;
-  for (std::size_t i = plot.curves.size(); i-- > 0;) {
-    const Plot::Curve& curve = plot.curves[i];
-    if (curve.name.empty()) continue;
-    pen.right(end, y, kPlotSize, curve.color, curve.name);
-    end -= pen.canvas().widthOf(curve.name, kPlotSize * pen.scale()) / pen.scale() + 8;
+// Smaller where it is long, and cut where it is longer than that.
+void drawTitle(const Pen& pen, std::string title, float x, float y) {
+  float size = kTitleSize;
+  while (size > kPlotSize && pen.widthOf(title, size) > kInside) size -= 1;
+  const std::string end = pen.widthOf(title, size) > kInside ? "…" : "";
+  while (!title.empty() && pen.widthOf(title + end, size) > kInside) {
+    const auto continues = [&] { return (title.back() & 0xC0) == 0x80; };  // a letter of UTF-8
+    while (title.size() > 1 && continues()) title.pop_back();
+    title.pop_back();
   }
+  pen.left(x, y + kTitleSize - 3, size, kHudInk, title + end);
+}
+
+std::string titleOf(const Plot& plot) {
+  return plot.unit.empty() ? plot.title : fmt::format("{} [{}]", plot.title, plot.unit);
+}
+
+// The names of curves, in the order drawn: beside the title as many as fit, the rest on lines
+// below.
+using LegendLines = std::vector<std::vector<const Plot::Curve*>>;
+
+LegendLines legendOf(const Pen& pen, const Plot& plot) {
+  LegendLines lines(1);
+  float left = kInside - pen.widthOf(titleOf(plot), kPlotSize) - kNameGap;
+  for (const Plot::Curve& curve : plot.curves) {
+    if (curve.name.empty()) continue;
+    const float width = pen.widthOf(curve.name, kPlotSize);
+    if (width > left) {
+      lines.emplace_back();
+      left = kInside;
+    }
+    lines.back().push_back(&curve);
+    left -= width + kNameGap;
+  }
+  return lines;
+}
+
+float heightOf(const Pen& pen, const Plot& plot) {
+  return kPlotStep + static_cast<float>(legendOf(pen, plot).size() - 1) * kLegendStep;
+}
+
+// Returns by how much the plot below it starts lower.
+float drawPlotTitle(const Pen& pen, const Plot& plot, float x, float y) {
+  pen.left(x, y, kPlotSize, kHudInk, titleOf(plot));
+  const LegendLines lines = legendOf(pen, plot);
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    float end = x + kInside;
+    for (std::size_t i = lines[line].size(); i-- > 0;) {
+      const Plot::Curve& curve = *lines[line][i];
+      pen.right(end, y + static_cast<float>(line) * kLegendStep, kPlotSize, curve.color,
+                curve.name);
+      end -= pen.widthOf(curve.name, kPlotSize) + kNameGap;
+    }
+  }
+  return static_cast<float>(lines.size() - 1) * kLegendStep;
 }
 
 // A row, and under it a bar that changes its colour where what holds ends.
 void drawBar(const Pen& pen, const Bar& bar, float x, float y) {
-  const float right = x + kWidth - 2 * kHudPadding, top = y + kRowStep;
+  const float right = x + kInside, top = y + kRowStep;
   const auto at = [&](float share) { return x + std::clamp(share, 0.0f, 1.0f) * (right - x); };
   pen.left(x, y + kRowSize - 2, kRowSize, kQuiet, bar.name);
   pen.right(right, y + kRowSize - 2, kRowSize, kHudInk, bar.value);
@@ -125,10 +173,10 @@ void drawBar(const Pen& pen, const Bar& bar, float x, float y) {
 }
 
 void drawPlot(const Pen& pen, const Plot& plot, float x, float y) {
-  drawPlotTitle(pen, plot, x, y + kPlotSize);
+  y += drawPlotTitle(pen, plot, x, y + kPlotSize);
   const AxisRange range = axisRangeOf(plot);
   const Pixel from = pen.at(x + kGutter, y + kPlotTitleStep);
-  const Pixel to = pen.at(x + kWidth - 2 * kHudPadding, y + kPlotTitleStep + kPlotHeight);
+  const Pixel to = pen.at(x + kInside, y + kPlotTitleStep + kPlotHeight);
   pen.canvas().fill(from, to, kPlotPaper);
   const int rules = plot.logarithmic ? static_cast<int>(std::lround(range.high - range.low)) : 4;
   const int stride = (rules + 5) / 6;
@@ -174,17 +222,17 @@ void drawHud(Canvas& canvas, const Hud& hud, float scale) {
   const Pen pen(canvas, scale);
   const float rows = static_cast<float>(hud.rows.size());
   const float bars = static_cast<float>(hud.bars.size());
-  const float plots = static_cast<float>(hud.plots.size());
+  float plots = 0;
+  for (const Plot& plot : hud.plots) plots += heightOf(pen, plot);
   const float title = hud.title.empty() ? 0 : kTitleStep;
-  const float height =
-      2 * kHudPadding + title + rows * kRowStep + bars * kBarStep + plots * kPlotStep - 4;
+  const float height = 2 * kHudPadding + title + rows * kRowStep + bars * kBarStep + plots - 4;
   const Pixel from = pen.at(kHudMargin, kHudMargin),
               to = pen.at(kHudMargin + kWidth, kHudMargin + height);
   canvas.fill(from, to, kPanel, 5 * scale);
   canvas.outline(from, to, kRim, std::max(1.0f, std::round(scale)), 5 * scale);
   const float x = kHudMargin + kHudPadding, right = kHudMargin + kWidth - kHudPadding;
   float y = kHudMargin + kHudPadding;
-  if (!hud.title.empty()) pen.left(x, y + kTitleSize - 3, kTitleSize, kHudInk, hud.title);
+  drawTitle(pen, hud.title, x, y);
   y += title;
   for (const auto& [name, value] : hud.rows) {
     pen.left(x, y + kRowSize - 2, kRowSize, kQuiet, name);
@@ -197,7 +245,7 @@ void drawHud(Canvas& canvas, const Hud& hud, float scale) {
   }
   for (const Plot& plot : hud.plots) {
     drawPlot(pen, plot, x, y);
-    y += kPlotStep;
+    y += heightOf(pen, plot);
   }
 }
 

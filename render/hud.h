@@ -8,8 +8,8 @@
 
 namespace render {
 
-// `scale` is pixels per pixel of a picture of 720 lines. The layout depends on the number of rows
-// and plots only, so that nothing moves while a film runs.
+// `scale` is pixels per pixel of a picture of 720 lines. The layout depends on the number of
+// rows and plots and on the names of curves only, so that nothing moves while a film runs.
 void drawHud(Canvas& canvas, const Hud& hud, float scale);
 
 // What a plot's axis spans, and its ends in words.

@@ -80,6 +80,21 @@ TEST_F(Overlay, WritesTheCaptionAtTheLowerLeft) {
   EXPECT_EQ(drawn(picture, 0, 0, 640, 330), 0);
 }
 
+// Names of curves wrap, a long title shrinks: what is left and right of the panel stays as it was.
+TEST_F(Overlay, KeepsNamesAndTitleInThePanel) {
+  Picture picture = flat();
+  picture.hud = sampleHud(2);
+  picture.hud.title = std::string(80, 'W');
+  Plot& plot = picture.hud.plots.front();
+  while (plot.curves.size() < 12) {
+    plot.curves.push_back(plot.curves.front());
+    plot.curves.back().name = "limit_of_a_cone";
+  }
+  EXPECT_GT(drawn(picture, 8, 0, 8 + 134, 360), 1000);
+  EXPECT_EQ(drawn(picture, 0, 0, 7, 360), 0);
+  EXPECT_EQ(drawn(picture, 8 + 134 + 2, 0, 640, 360), 0);
+}
+
 TEST_F(Overlay, KeepsThePanelWhereItIsWhileThePlotsGrow) {
   Picture picture = flat();
   picture.hud = sampleHud(2);
