@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "app/base/shell.h"
+
 namespace app {
 
 namespace {
@@ -35,6 +37,21 @@ std::vector<std::string> longNames(const CLI::App& command) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
+}
+
+std::string given(const CLI::App& command, const std::vector<std::string>& without) {
+  std::string text;
+  for (const CLI::Option* option : command.parse_order()) {
+    const std::string name = option->get_lnames().empty() ? "" : option->get_lnames().front();
+    if (std::find(without.begin(), without.end(), name) != without.end()) continue;
+    if (text.find(" --" + name + " ") != std::string::npos) continue;  // all its values are there
+    const bool isFlag = option->get_items_expected_max() == 0;
+    for (const std::string& value : option->results()) {
+      if (!option->get_positional()) text += " --" + name;
+      if (!isFlag) text += " " + shellQuoted(value);
+    }
+  }
+  return text;
 }
 
 std::vector<std::string> wholeLibrary() {

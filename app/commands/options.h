@@ -37,6 +37,10 @@ struct CommonOptions {
 // "--video" and the others of one command.
 std::vector<std::string> longNames(const CLI::App& command);
 
+// What was given to a command, quoted for a shell: " dominoes --size 640x360 --hud", without the
+// options of these names.
+std::string given(const CLI::App& command, const std::vector<std::string>& without);
+
 // Every scene of the library; throws InputError where there is none.
 std::vector<std::string> wholeLibrary();
 

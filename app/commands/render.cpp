@@ -8,12 +8,14 @@
 
 #include "app/base/console.h"
 #include "app/base/interrupt.h"
+#include "app/base/shell.h"
 #include "app/base/stopwatch.h"
 #include "app/commands/commands.h"
 #include "app/commands/picture_options.h"
 #include "app/run/frame_range.h"
 #include "app/run/motion.h"
 #include "app/run/render_run.h"
+#include "app/run/shards.h"
 #include "app/trust/trust_chart.h"
 #include "render/film.h"
 
@@ -27,6 +29,9 @@ struct RenderOptions {
   std::string frames = ":", from;
   std::vector<std::string> overlays;
   bool video = false, hud = false, trust = false, fresh = false, resume = false;
+  int jobs = 0;  // 0: this process draws
+  bool collect = false;
+  const CLI::App* line = nullptr;  // as it was given
 };
 
 scenes::Overlays chooseOverlays(scenes::Overlays overlays, const std::vector<std::string>& words) {
@@ -129,9 +134,37 @@ scenes::Scene readScene(const RenderOptions& options) {
   return common.readScene();
 }
 
+std::string commandOf(const Shard& shard, const RenderOptions& options, const RenderJob& job) {
+  static const std::vector<std::string> kOwn = {"jobs",  "collect", "frames", "out",
+                                                "video", "fresh",   "resume", "quiet"};
+  return fmt::format("{} render{} --frames {} -o {} --quiet\n", shellQuoted(programPath()),
+                     given(*options.line, kOwn), framesOf(shard, job.frames),
+                     shellQuoted(folderOf(shard, job.folder).string()));
+}
+
+ExitCode printShards(const RenderOptions& options, const RenderJob& job) {
+  const int count = std::min(options.jobs, static_cast<int>(job.frames.size()));
+  for (int k = 0; k < count; ++k) say(commandOf({k, count}, options, job));
+  return ExitCode::kDone;
+}
+
+RenderResult collectShards(const RenderOptions& options, const scenes::Scene& scene,
+                           const RenderJob& job) {
+  const Collected collected = collectFrames(scene, job);
+  RenderResult result = collected.result;
+  if (collected.missing.empty()) return result;
+  result.end.code = ExitCode::kCheckFailed;
+  result.end.problem = "not every frame was drawn; these make the rest:\n";
+  for (const Shard& shard : collected.missing) {
+    result.end.problem += commandOf(shard, options, job);
+  }
+  return result;
+}
+
 ExitCode renderScene(const RenderOptions& options) {
   scenes::Scene scene = readScene(options);
   RenderJob job = makeJob(options, scene);
+  if (options.jobs > 0) return printShards(options, job);
   if (options.video) requireFfmpeg("--video");
   std::optional<Trust> trust;
   if (options.trust) {
@@ -145,7 +178,7 @@ ExitCode renderScene(const RenderOptions& options) {
   if (interrupted()) {
     result.end.code = ExitCode::kInterrupted;
   } else {
-    result = renderFrames(scene, job);
+    result = options.collect ? collectShards(options, scene, job) : renderFrames(scene, job);
   }
   if (result.end.code == ExitCode::kDone && options.video) makeVideo(scene, job, result);
   if (result.end.code == ExitCode::kInterrupted) {
@@ -201,6 +234,13 @@ void addRender(CLI::App& line, Action& action) {
   command
       ->add_flag("--fresh", options->fresh, "Delete the frames that are there and draw all again")
       ->excludes(resume);
+  auto* jobs = command->add_option("--jobs", options->jobs,
+                                   "Draw nothing: print N commands, each of which draws its share "
+                                   "of the frames into DIR/jobs, anywhere and any number of times");
+  jobs->type_name("N")->check(CLI::Range(1, 100000));
+  command->add_flag("--collect", options->collect, "Draw nothing: join what jobs drew")
+      ->excludes(jobs);
+  options->line = command;
   addCommon(*command, options->common);
   addHash(*command, options->common);
   command->callback([options, &action] { action = [options] { return renderScene(*options); }; });

@@ -10,6 +10,7 @@
 #include "app/base/console.h"
 #include "app/base/output_file.h"
 #include "app/base/parallel.h"
+#include "app/base/shell.h"
 #include "app/base/stopwatch.h"
 #include "scenes/read/value.h"
 
@@ -21,24 +22,11 @@ namespace fs = std::filesystem;
 
 constexpr double kReportEvery = 120;  // s, so that a long study can be looked at
 
-std::string quoted(const std::string& word) {
-  const bool isPlain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) ||
-           std::string("._-/=,:+").find(static_cast<char>(c)) != std::string::npos;
-  });
-  if (isPlain && !word.empty()) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 std::string jobOf(const Study& study, const StudyTask& task, const StudyOptions& options,
                   const fs::path& folder) {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const std::string command = options.command(study.name, {task.word});
-  return fmt::format("{}{} -o {} --run {}\n", quoted(error ? "dbd" : program.string()),
-                     command.substr(command.find(' ')), quoted(folder.string()), quoted(task.id));
+  return fmt::format("{}{} -o {} --run {}\n", shellQuoted(programPath()),
+                     command.substr(command.find(' ')), shellQuoted(folder.string()), shellQuoted(task.id));
 }
 
 ExitCode tellInterrupted() {
@@ -119,13 +107,13 @@ StoreMode modeOf(const StudyOptions& options) {
 std::string StudyOptions::command(const std::string& study,
                                   const std::vector<std::string>& named) const {
   std::string text = "dbd study " + study;
-  for (const std::string& word : named) text += " " + quoted(word);
+  for (const std::string& word : named) text += " " + shellQuoted(word);
   if (quick) text += " --quick";
-  if (!methods.empty()) text += " --methods " + quoted(methods);
+  if (!methods.empty()) text += " --methods " + shellQuoted(methods);
   if (!severity.empty()) text += " --severity " + severity;
   if (steps > 0) text += fmt::format(" --steps {}", steps);
   if (repeats > 0) text += fmt::format(" --repeats {}", repeats);
-  for (const std::string& setting : common.overrides) text += " --set " + quoted(setting);
+  for (const std::string& setting : common.overrides) text += " --set " + shellQuoted(setting);
   return text;
 }
 
