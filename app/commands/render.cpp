@@ -12,10 +12,12 @@
 #include "app/base/stopwatch.h"
 #include "app/commands/commands.h"
 #include "app/commands/picture_options.h"
+#include "app/run/chosen_motion.h"
 #include "app/run/frame_range.h"
 #include "app/run/motion.h"
 #include "app/run/render_run.h"
 #include "app/run/shards.h"
+#include "app/take/take_files.h"
 #include "app/trust/trust_chart.h"
 #include "render/film.h"
 
@@ -28,6 +30,7 @@ struct RenderOptions {
   PictureOptions picture;
   std::string frames = ":", from;
   std::vector<std::string> overlays;
+  TakeOptions take;
   bool video = false, hud = false, trust = false, fresh = false, resume = false;
   int jobs = 0;  // 0: this process draws
   bool collect = false;
@@ -66,6 +69,7 @@ RenderJob makeJob(const RenderOptions& options, const scenes::Scene& scene) {
   job.folder = options.common.outputFolder(scene.name);
   job.threads = options.common.threadCount();
   job.from = options.from;
+  job.keepsMotion = options.take.any();
   job.fresh = options.fresh;
   job.progress = options.common.progressMode();
   return job;
@@ -164,6 +168,11 @@ RenderResult collectShards(const RenderOptions& options, const scenes::Scene& sc
 ExitCode renderScene(const RenderOptions& options) {
   scenes::Scene scene = readScene(options);
   RenderJob job = makeJob(options, scene);
+  if (options.take.any() && (options.jobs > 0 || options.collect)) {
+    throw scenes::InputError(
+        "--player and --gltf take the whole motion, and a share of a film has its own: "
+        "`dbd simulate` writes them");
+  }
   if (options.jobs > 0) return printShards(options, job);
   if (options.video) requireFfmpeg("--video");
   std::optional<Trust> trust;
@@ -173,6 +182,10 @@ ExitCode renderScene(const RenderOptions& options) {
     trust = measureTrust(plan, job.threads, job.progress);
     job.view.hud = true;
     job.view.trustedUntil = trust->until();
+  }
+  std::optional<TakeFiles> take;
+  if (options.take.any()) {
+    take.emplace(options.take, scenes::Simulation(scene), framesNeeded(scene, job));
   }
   RenderResult result;
   if (interrupted()) {
@@ -184,6 +197,10 @@ ExitCode renderScene(const RenderOptions& options) {
   if (result.end.code == ExitCode::kInterrupted) {
     note("dbd: interrupted; the same command goes on where it stopped\n");
     return result.end.code;
+  }
+  if (take) {
+    const scenes::Simulation start(scene);
+    take->write(scene, drawnMotion(start, job), job.view.overlays);
   }
   if (trust) writeTrust(*trust, job.folder);
   if (trust && !options.common.quiet) say(trustText(*trust));
@@ -228,6 +245,7 @@ void addRender(CLI::App& line, Action& action) {
       ->type_name("F.npz");
   command->add_flag("--video", options->video, "Also make DIR/NAME.mp4");
   addViewOptions(*command, *options);
+  addTakeOptions(*command, options->take);
   CLI::Option* resume = command->add_flag(
       "--resume", options->resume,
       "Keep the frames of an earlier, same run; refuse those of another (the default)");

@@ -12,6 +12,7 @@
 #include "app/run/chosen_motion.h"
 #include "app/run/play.h"
 #include "app/run/run_record.h"
+#include "app/take/take_files.h"
 #include "app/trust/steps_chart.h"
 
 namespace app {
@@ -21,12 +22,14 @@ namespace {
 struct SimulateOptions {
   CommonOptions common;
   std::string trajectory, metrics, motion, stepsChart;
+  TakeOptions take;
 };
 
 // What a run leaves behind, in the order the frames come.
 struct Recording {
   std::optional<OutputFile> trajectory;
   std::optional<Motion> motion;
+  std::optional<TakeFiles> take;
   std::vector<scenes::FrameMetrics> metrics;
   std::vector<StageSeconds> seconds;
   std::vector<std::string> hashes;
@@ -95,14 +98,18 @@ void tell(const SimulateOptions& options, const scenes::Scene& scene, const Reco
 
 // Opened first: a long run must not end in vain.
 void openRecording(const SimulateOptions& options, const scenes::Simulation& start,
-                   Recording& recording) {
+                   const std::filesystem::path& folder, Recording& recording) {
   if (!options.trajectory.empty()) {
     recording.trajectory.emplace(options.trajectory);
     recording.trajectory->write(trajectoryHeader());
   }
+  const int frames = start.scene().frameCount();
+  if (options.take.any()) recording.take.emplace(options.take, start, frames);
   if (!options.motion.empty()) {
-    const int frames = start.scene().frameCount();
     recording.motion.emplace(Motion::create(options.motion, start, frames, Motion::Keep::kAll));
+  } else if (recording.take) {  // written under a temporary name only, and gone at the end
+    const std::filesystem::path file = folder / "take.npz";
+    recording.motion.emplace(Motion::create(file, start, frames, Motion::Keep::kContacts));
   }
 }
 
@@ -121,7 +128,7 @@ ExitCode simulate(const SimulateOptions& options) {
   const std::filesystem::path folder = options.common.outputFolder(scene.name);
   makeFolder(folder);
   Recording recording;
-  openRecording(options, simulation, recording);
+  openRecording(options, simulation, folder, recording);
   std::optional<OutputFile> metrics;
   if (!options.metrics.empty()) metrics.emplace(options.metrics);
 
@@ -136,7 +143,8 @@ ExitCode simulate(const SimulateOptions& options) {
   if (end.code == ExitCode::kDone) record.expectations = describeVerdicts(checker.verdicts());
   if (metrics) metrics->write(metricsTable(recording.metrics, recording.seconds));
   if (recording.trajectory) recording.trajectory->commit();
-  if (recording.motion) recording.motion->commit(describeMotion(scene, record));
+  if (!options.motion.empty()) recording.motion->commit(describeMotion(scene, record));
+  if (recording.take) recording.take->write(scene, *recording.motion, scene.overlays);
   if (metrics) metrics->commit();
   if (steps) steps->write(options.stepsChart);
   writeRunRecord(scene, record, recording, end, folder);
@@ -167,6 +175,7 @@ void addSimulate(CLI::App& line, Action& action) {
       ->add_option("--steps-chart", options->stepsChart,
                    "Chart of the steps that islands take by the accuracy, over time")
       ->type_name("F.png");
+  addTakeOptions(*command, options->take);
   addCommon(*command, options->common);
   addHash(*command, options->common);
   command->callback([options, &action] { action = [options] { return simulate(*options); }; });

@@ -13,6 +13,10 @@ bool showsContacts(const scenes::Overlays& overlays) {
   return overlays.contacts || overlays.impulses || overlays.vectors;
 }
 
+bool wantsContacts(const RenderJob& job) {
+  return job.keepsMotion || showsContacts(job.view.overlays);
+}
+
 Motion openGiven(const scenes::Simulation& start, const RenderJob& job) {
   Motion motion = Motion::open(job.from);
   motion.fitTo(start);
@@ -42,7 +46,7 @@ std::optional<Motion> openEarlier(const scenes::Simulation& start, const RenderJ
     if (!same) return std::nullopt;
     motion.fitTo(start);
     const bool enough = motion.frames() >= framesNeeded(start.scene(), job) &&
-                        (motion.hasContacts() || !showsContacts(job.view.overlays));
+                        (motion.hasContacts() || !wantsContacts(job));
     if (!enough) return std::nullopt;
     return motion;
   } catch (const scenes::InputError&) {
@@ -58,10 +62,15 @@ ChosenMotion chooseMotion(const scenes::Simulation& start, const RenderJob& job,
   if (std::optional<Motion> earlier = openEarlier(start, job, record)) {
     return {std::move(*earlier), true};
   }
-  const auto keep =
-      showsContacts(job.view.overlays) ? Motion::Keep::kContacts : Motion::Keep::kPoses;
+  const auto keep = wantsContacts(job) ? Motion::Keep::kContacts : Motion::Keep::kPoses;
   return {Motion::create(job.folder / kMotionFile, start, framesNeeded(start.scene(), job), keep),
           false};
+}
+
+Motion drawnMotion(const scenes::Simulation& start, const RenderJob& job) {
+  Motion motion = Motion::open(job.from.empty() ? job.folder / kMotionFile : job.from);
+  motion.fitTo(start);
+  return motion;
 }
 
 int framesNeeded(const scenes::Scene& scene, const RenderJob& job) {

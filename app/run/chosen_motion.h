@@ -15,6 +15,9 @@ struct ChosenMotion {
 ChosenMotion chooseMotion(const scenes::Simulation& start, const RenderJob& job,
                           const RunRecord& record);
 
+// What a run drew from. Throws InputError where it is not there.
+Motion drawnMotion(const scenes::Simulation& start, const RenderJob& job);
+
 // A camera that fits the motion wants all of it.
 int framesNeeded(const scenes::Scene& scene, const RenderJob& job);
 

@@ -203,6 +203,7 @@ std::vector<double> Motion::contactsOf(int frame) const {
   file_.read(end_, f, 1, &end);
   if (frame > 0) file_.read(end_, f - 1, 1, &first);
   if (first > end) throw scenes::InputError(file_.path().string() + ": contact_end falls");
+  if (first == end) return {};  // before the first one is written, its place is not in the file
   std::vector<double> numbers(MomentNumbers::kContact * (end - first));
   file_.read(contact_, first, end - first, numbers.data());
   return numbers;

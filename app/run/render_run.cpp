@@ -206,7 +206,7 @@ RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job) {
   if (job.view.trustedUntil) result.record.picture["trusted_until"] = *job.view.trustedUntil;
   const FrameFolder frames(job.folder);
   openFolder(frames, job, result);
-  if (isComplete(frames, job, result.record)) {
+  if (!job.keepsMotion && isComplete(frames, job, result.record)) {
     result.kept = static_cast<int>(job.frames.size());
     return result;
   }

@@ -19,6 +19,7 @@ struct RenderJob {
   std::filesystem::path folder;
   int threads = 1;
   std::filesystem::path from;  // a motion to draw; empty: the scene is simulated
+  bool keepsMotion = false;    // the motion is wanted after the frames, with its contacts
   bool fresh = false;          // draw all again, whatever the folder holds
   ProgressMode progress = ProgressMode::kNone;
 };

@@ -113,8 +113,7 @@ void setShape(const physics::Shape& shape, double pointDiameter, render::Instanc
 void drawBodies(const Simulation& simulation, const MotionBounds& stage, render::Picture& picture) {
   const physics::Bodies& bodies = simulation.world().bodies();
   const Simulation::Appearance& appearance = simulation.appearance();
-  for (BodyId b = 1; b < bodies.size(); ++b) {
-    if (isGround(bodies, b) || appearance.hidden[b]) continue;
+  for (const BodyId b : drawnBodies(simulation)) {
     render::Instance instance;
     if (const auto* plane = std::get_if<physics::Plane>(&bodies.shape[b])) {
       instance = plate(*plane, bodies.pose[b], stage);
@@ -234,6 +233,15 @@ void MotionBounds::include(const Simulation& simulation, const std::string& fit,
 }
 
 bool needsMotionBounds(const Scene& scene) { return scene.camera.keys.empty(); }
+
+std::vector<BodyId> drawnBodies(const Simulation& simulation) {
+  const physics::Bodies& bodies = simulation.world().bodies();
+  std::vector<BodyId> drawn;
+  for (BodyId b = 1; b < bodies.size(); ++b) {
+    if (!isGround(bodies, b) && !simulation.appearance().hidden[b]) drawn.push_back(b);
+  }
+  return drawn;
+}
 
 render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
                      const ViewOptions& options, const std::vector<FrameMetrics>& history) {

@@ -35,6 +35,9 @@ struct ViewOptions {
       0;  // length of the text that will stand at the upper left; letters keep off it
 };
 
+// The bodies that a picture begins with, an instance each; rods and tubes come after them.
+std::vector<physics::BodyId> drawnBodies(const Simulation& simulation);
+
 // The picture of the simulation's present frame. `history`: metrics of frames 0..now, for the HUD.
 render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
                      const ViewOptions& options, const std::vector<FrameMetrics>& history);
