@@ -1,6 +1,7 @@
 // PNG frames to an H.264 film, by the ffmpeg program.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <stdexcept>
@@ -17,6 +18,7 @@ struct FilmError : std::runtime_error {
 struct FilmOptions {
   int framesPerSecond = 60;
   int quality = 18;  // constant rate factor of x264: 0 lossless ... 51 worst
+  std::vector<std::array<std::string, 2>> notes;       // keyword and text: title, comment
   std::string ffmpeg = "ffmpeg", ffprobe = "ffprobe";  // names on PATH, or paths
 };
 

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/png_notes.h"
 #include "render/unfinished.h"
 
 namespace {
@@ -81,23 +82,28 @@ void writeAll(int descriptor, const unsigned char* data, std::size_t size,
   }
 }
 
-void writeAndRename(const unsigned char* data, std::size_t size,
+constexpr std::size_t kHead = 33;  // the signature and IHDR, which come first
+
+void writeAndRename(const unsigned char* data, std::size_t size, const std::string& notes,
                     const std::filesystem::path& file) {
   UnfinishedFile unfinished(file);
   Descriptor out{::open(unfinished.part().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
   if (out.number < 0) fail(errno, "cannot create", file);
-  writeAll(out.number, data, size, file);
+  writeAll(out.number, data, kHead, file);
+  writeAll(out.number, reinterpret_cast<const unsigned char*>(notes.data()), notes.size(), file);
+  writeAll(out.number, data + kHead, size - kHead, file);
   if (::close(std::exchange(out.number, -1)) != 0) fail(errno, "cannot write", file);
   unfinished.finish();
 }
 
 }  // namespace
 
-void writePng(const Image& image, const std::filesystem::path& file) {
+void writePng(const Image& image, const std::filesystem::path& file, const PngNotes& notes) {
   const auto size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.width < 1 || image.height < 1 || image.rgb.size() != 3 * size)
     throw std::invalid_argument(
         fmt::format("image: {} bytes for {} x {}", image.rgb.size(), image.width, image.height));
+  const std::string chunks = noteChunks(notes, image.width);
   // Set once: stb reads it as a global, and it is the same for every thread.
   static const bool forced = (stbi_write_force_png_filter = kPaethFilter, true);
   (void)forced;
@@ -107,7 +113,7 @@ void writePng(const Image& image, const std::filesystem::path& file) {
                             &length),
       std::free);
   if (!bytes) fail(ENOMEM, "cannot compress", file);
-  writeAndRename(bytes.get(), static_cast<std::size_t>(length), file);
+  writeAndRename(bytes.get(), static_cast<std::size_t>(length), chunks, file);
 }
 
 Image readPng(const std::filesystem::path& file) {

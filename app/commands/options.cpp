@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "app/base/shell.h"
+#include "app/run/recorded_run.h"
 
 namespace app {
 
@@ -15,7 +16,10 @@ constexpr int kMostThreads = 256;
 
 }  // namespace
 
-scenes::Scene CommonOptions::readScene() const { return scenes::readScene(scene, overrides); }
+scenes::Scene CommonOptions::readScene() const {
+  if (namesRecord(scene)) return recordedScene(openRecord(scene), overrides);
+  return scenes::readScene(scene, overrides);
+}
 
 std::filesystem::path CommonOptions::outputFolder(const std::string& name) const {
   return folder.empty() ? std::filesystem::path("out") / name : std::filesystem::path(folder);
@@ -62,7 +66,8 @@ std::vector<std::string> wholeLibrary() {
 
 CLI::Option* addScene(CLI::App& command, CommonOptions& options) {
   return command
-      .add_option("SCENE", options.scene, "A scene of the library (dbd list) or a .toml file")
+      .add_option("SCENE", options.scene,
+                  "A scene of the library (dbd list), a .toml file, or the run.json of a run")
       ->required();
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int kLeastSide = 16, kMostSide = 8192;  // pixels
 
 render::RendererOptions ofQuality(const std::string& name) {
-  switch (parseQuality(name)) {
+  switch (name.empty() ? render::Quality::kStandard : parseQuality(name)) {
     case render::Quality::kDraft:
       return {640, 360, render::Quality::kDraft, ""};
     case render::Quality::kPaper:

@@ -12,7 +12,7 @@ class App;
 namespace app {
 
 struct PictureOptions {
-  std::string size, quality = "standard";
+  std::string size, quality;  // empty: the defaults
 
   // The size is that of the quality where none is asked for. Throws InputError.
   render::RendererOptions renderer() const;

@@ -15,6 +15,8 @@
 #include "app/run/chosen_motion.h"
 #include "app/run/frame_range.h"
 #include "app/run/motion.h"
+#include "app/run/provenance.h"
+#include "app/run/recorded_run.h"
 #include "app/run/render_run.h"
 #include "app/run/shards.h"
 #include "app/take/take_files.h"
@@ -28,7 +30,8 @@ namespace {
 struct RenderOptions {
   CommonOptions common;
   PictureOptions picture;
-  std::string frames = ":", from;
+  std::string frames, from;  // empty: all of them
+  double printWidth = 0;     // cm
   std::vector<std::string> overlays;
   TakeOptions take;
   bool video = false, hud = false, trust = false, fresh = false, resume = false;
@@ -65,7 +68,9 @@ RenderJob makeJob(const RenderOptions& options, const scenes::Scene& scene) {
   job.view.hud = options.hud;
   job.view.overlays = chooseOverlays(scene.overlays, options.overlays);
   job.view.aspect = static_cast<double>(job.renderer.width) / job.renderer.height;
-  job.frames = parseFrameRange(options.frames, scene.frameCount());
+  job.frames = parseFrameRange(options.frames.empty() ? ":" : options.frames, scene.frameCount());
+  job.askedOverlays = options.overlays;
+  job.printWidth = options.printWidth;
   job.folder = options.common.outputFolder(scene.name);
   job.threads = options.common.threadCount();
   job.from = options.from;
@@ -89,6 +94,7 @@ void makeVideo(const scenes::Scene& scene, const RenderJob& job, RenderResult& r
   }
   const Stopwatch watch;
   render::FilmOptions film;
+  film.notes = filmNotes(result.record);
   film.framesPerSecond = std::max(1, static_cast<int>(std::lround(1.0 * scene.fps / step)));
   try {
     render::makeFilm(
@@ -165,13 +171,47 @@ RenderResult collectShards(const RenderOptions& options, const scenes::Scene& sc
   return result;
 }
 
-ExitCode renderScene(const RenderOptions& options) {
+// As a recorded run was drawn, where this one does not say otherwise.
+void takeOver(const RunRecord& record, RenderOptions& options) {
+  const Json& was = record.picture;
+  if (!was.is_object()) return;  // it was simulated only
+  PictureOptions& picture = options.picture;
+  if (picture.size.empty() && picture.quality.empty()) {
+    picture.size = fmt::format("{}x{}", was.value("width", 0), was.value("height", 0));
+  }
+  if (picture.quality.empty()) picture.quality = was.value("quality", picture.quality);
+  if (options.overlays.empty()) {
+    options.overlays = was.value("asked_overlays", options.overlays);
+  }
+  if (options.printWidth == 0) options.printWidth = was.value("print_width", 0.0);
+  if (options.frames.empty()) options.frames = record.frames;
+  options.hud = options.hud || was.value("hud", false);
+}
+
+void refuseTakeOfAShare(const RenderOptions& options) {
+  if (!options.take.any() || (options.jobs == 0 && !options.collect)) return;
+  throw scenes::InputError(
+      "--player and --gltf take the whole motion, and a share of a film has its own: "
+      "`dbd simulate` writes them");
+}
+
+void sayHash(const RenderResult& result, const RenderJob& job) {
+  const std::vector<std::string>& hashes = result.record.stateHashes;
+  const bool done = result.end.code == ExitCode::kDone;  // else: of the last frame there is
+  say((done ? hashes.at(job.frames.back()) : hashes.back()) + "\n");
+}
+
+ExitCode renderScene(RenderOptions options) {
+  refuseTakeOfAShare(options);
+  std::optional<RunRecord> recorded;
+  if (namesRecord(options.common.scene)) {
+    recorded = openRecord(options.common.scene);
+    takeOver(*recorded, options);
+  }
   scenes::Scene scene = readScene(options);
   RenderJob job = makeJob(options, scene);
-  if (options.take.any() && (options.jobs > 0 || options.collect)) {
-    throw scenes::InputError(
-        "--player and --gltf take the whole motion, and a share of a film has its own: "
-        "`dbd simulate` writes them");
+  if (recorded && recorded->picture.contains("trusted_until")) {
+    job.view.trustedUntil = recorded->picture.at("trusted_until").get<double>();
   }
   if (options.jobs > 0) return printShards(options, job);
   if (options.video) requireFfmpeg("--video");
@@ -205,11 +245,7 @@ ExitCode renderScene(const RenderOptions& options) {
   if (trust) writeTrust(*trust, job.folder);
   if (trust && !options.common.quiet) say(trustText(*trust));
   if (!options.common.quiet) say(summary(scene, job, result));
-  if (options.common.hash) {
-    const std::vector<std::string>& hashes = result.record.stateHashes;
-    const bool done = result.end.code == ExitCode::kDone;  // else: of the last frame there is
-    say((done ? hashes.at(job.frames.back()) : hashes.back()) + "\n");
-  }
+  if (options.common.hash) sayHash(result, job);
   if (!result.end.problem.empty()) note("dbd: " + result.end.problem + "\n");
   return result.end.code;
 }
@@ -220,6 +256,11 @@ void addViewOptions(CLI::App& command, RenderOptions& options) {
                   "Frames A to B-1 in steps of S, as Python slices; one number is one frame [all]")
       ->type_name("A:B:S");
   addPictureOptions(command, options.picture);
+  command
+      .add_option("--print-width", options.printWidth,
+                  "How wide the pictures will be printed: the files tell it to word processors")
+      ->check(CLI::Range(0.1, 1000.0))
+      ->type_name("CM");
   command.add_flag("--hud", options.hud, "Show time, counts and running plots in the picture");
   command.add_flag("--trust", options.trust,
                    "Compare with a tenth of the accuracy first, as dbd trust does, and show in the "

@@ -10,6 +10,7 @@
 #include "app/base/build_info.h"
 #include "app/base/machine.h"
 #include "app/base/numbers.h"
+#include "app/run/run_record.h"
 #include "app/run/step_clock.h"
 
 namespace app {
@@ -144,7 +145,7 @@ std::string raceJson(const Race& race, const RaceLimits& limits, const std::stri
                {"scene",
                 {{"name", race.scene.name},
                  {"title", race.scene.title},
-                 {"text_hash", hashText(race.scene.text)},
+                 {"text_hash", sceneHash(race.scene)},
                  {"overrides", race.scene.overrides},
                  {"fps", race.scene.fps},
                  {"frames", race.frames}}},

@@ -67,4 +67,11 @@ std::vector<int> parseFrameRange(const std::string& text, int count) {
   return frames;
 }
 
+std::string frameRangeText(const std::vector<int>& frames) {
+  if (frames.size() == 1) return fmt::format("{}", frames[0]);
+  const int step = frames[1] - frames[0];
+  const std::string range = fmt::format("{}:{}", frames.front(), frames.back() + 1);
+  return step == 1 ? range : fmt::format("{}:{}", range, step);
+}
+
 }  // namespace app

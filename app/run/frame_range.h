@@ -10,4 +10,6 @@ namespace app {
 // Throws InputError for anything else, a step below 1, and ranges without a frame.
 std::vector<int> parseFrameRange(const std::string& text, int count);
 
+std::string frameRangeText(const std::vector<int>& frames);  // as parseFrameRange() reads it
+
 }  // namespace app

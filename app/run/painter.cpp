@@ -5,6 +5,7 @@
 #include "app/commands/exit_code.h"
 #include "app/run/crew.h"
 #include "app/run/open_renderer.h"
+#include "app/run/provenance.h"
 #include "render/png.h"
 
 namespace app {
@@ -34,7 +35,7 @@ std::string Painter::draw(const std::string& task) {
   const double view = watch.lap();
   const render::Image& image = drawFrame(*renderer_, frame, picture);
   const double draw = watch.lap();
-  render::writePng(image, frames_.file(frame));
+  render::writePng(image, frames_.file(frame), notesOf(record_, frame));
   return Json{{"view", view}, {"draw", draw}, {"write", watch.lap()}}.dump();
 }
 

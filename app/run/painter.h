@@ -16,8 +16,8 @@ class Painter {
  public:
   // All of them stay the caller's. `simulation` is only asked to show.
   Painter(scenes::Simulation& simulation, const Motion& motion, const RenderJob& job,
-          const FrameFolder& frames)
-      : simulation_(simulation), motion_(motion), job_(job), frames_(frames) {}
+          const FrameFolder& frames, const RunRecord& record)
+      : simulation_(simulation), motion_(motion), job_(job), frames_(frames), record_(record) {}
 
   static std::string task(int frame, const scenes::MotionBounds& bounds);
   std::string draw(const std::string& task);  // the seconds that it took, by stage, as JSON
@@ -29,6 +29,7 @@ class Painter {
   const Motion& motion_;
   const RenderJob& job_;
   const FrameFolder& frames_;
+  const RunRecord& record_;
   std::unique_ptr<render::Renderer> renderer_;  // opened by the process that draws
   std::vector<scenes::FrameMetrics> history_;   // for the HUD
 };

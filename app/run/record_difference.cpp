@@ -11,16 +11,18 @@ struct Known {
   const char *path, *word;
 };
 constexpr Known kKnown[] = {{"program.hash", "the program's hash"},
-                            {"scene.text_hash", "the scene file's hash"},
+                            {"scene.text_hash", "the scene's hash"},
                             {"scene.overrides", "--set"},
                             {"picture.width", "--size, width"},
                             {"picture.height", "--size, height"},
                             {"picture.quality", "--quality"},
                             {"picture.hud", "--hud"},
                             {"picture.overlays", "--overlays"},
+                            {"picture.print_width", "--print-width"},
                             {"picture.trusted_until", "--trust, until"}};
 // What the scene's text and --set say already.
-constexpr const char* kFollows[] = {"scene.title", "scene.description", "scene.effects"};
+constexpr const char* kFollows[] = {"scene.title", "scene.description", "scene.effects",
+                                    "picture.asked_overlays"};
 
 std::string wordOf(const std::string& path) {
   for (const Known& known : kKnown) {

@@ -33,7 +33,10 @@ void openFolder(const FrameFolder& frames, const RenderJob& job, RenderResult& r
   if (job.fresh) {
     frames.clear();
   } else if (earlier && earlier->sameFrames(result.record)) {
-    result.record = *earlier;
+    const RunRecord asked = std::exchange(result.record, *earlier);
+    result.record.sceneText = asked.sceneText;
+    result.record.scenePath = asked.scenePath;
+    result.record.frames = asked.frames;
   } else if (frames.count() > 0) {
     if (!earlier) refuse(frames, "no readable run.json tells what they show.");
     refuse(frames, fmt::format("of a run that differs in (was -> would be)\n  {}",
@@ -65,7 +68,7 @@ class Drawing {
         simulation_(scene),
         checker_(scene),
         motion_(chooseMotion(simulation_, job, result.record)),
-        painter_(simulation_, motion_.motion, job, frames),
+        painter_(simulation_, motion_.motion, job, frames, result.record),
         crew_(
             std::min(job.threads, static_cast<int>(job.frames.size())),
             [this](const std::string& task) { return painter_.draw(task); },
@@ -193,6 +196,14 @@ class Drawing {
 
 }  // namespace
 
+void notePicture(const RenderJob& job, const render::Renderer::Info& info, RunRecord& record) {
+  record.frames = frameRangeText(job.frames);
+  record.picture = describePicture(job.renderer, info, job.view.hud, job.view.overlays);
+  if (!job.askedOverlays.empty()) record.picture["asked_overlays"] = job.askedOverlays;
+  if (job.view.trustedUntil) record.picture["trusted_until"] = *job.view.trustedUntil;
+  if (job.printWidth > 0) record.picture["print_width"] = job.printWidth;
+}
+
 RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job) {
   RenderResult result;
   result.record = makeRecord(scene);
@@ -202,8 +213,7 @@ RenderResult renderFrames(const scenes::Scene& scene, const RenderJob& job) {
     result.end.code = ExitCode::kInterrupted;
     return result;
   }
-  result.record.picture = describePicture(job.renderer, *info, job.view.hud, job.view.overlays);
-  if (job.view.trustedUntil) result.record.picture["trusted_until"] = *job.view.trustedUntil;
+  notePicture(job, *info, result.record);
   const FrameFolder frames(job.folder);
   openFolder(frames, job, result);
   if (!job.keepsMotion && isComplete(frames, job, result.record)) {

@@ -15,7 +15,9 @@ namespace app {
 struct RenderJob {
   render::RendererOptions renderer;
   scenes::ViewOptions view;
-  std::vector<int> frames;  // ascending
+  std::vector<int> frames;                 // ascending
+  double printWidth = 0;                   // cm; 0: files do not tell
+  std::vector<std::string> askedOverlays;  // on the command line, beside the scene's own
   std::filesystem::path folder;
   int threads = 1;
   std::filesystem::path from;  // a motion to draw; empty: the scene is simulated
@@ -29,6 +31,9 @@ struct RenderResult {
   RunRecord record;
   int drawn = 0, kept = 0;  // frames
 };
+
+// What the frames depend on beside the states, and which are asked for.
+void notePicture(const RenderJob& job, const render::Renderer::Info& info, RunRecord& record);
 
 // The scene is simulated once, into motion.npz of the folder, and drawn from there. Frames that the
 // folder holds already are kept when run.json says that the same program drew them from the same

@@ -9,6 +9,8 @@
 #include "app/base/console.h"
 #include "app/base/output_file.h"
 #include "scenes/measure/start_warnings.h"
+#include "scenes/read/settings_reader.h"
+#include "scenes/read/write_scene.h"
 
 namespace app {
 
@@ -27,6 +29,15 @@ Json describeContact(const physics::ContactSettings& contact) {
           {"margin", contact.margin}};
 }
 
+// How a command names it: a scene of the library by its word, another by its file.
+std::string sourceOf(const scenes::Scene& scene) {
+  const std::filesystem::path path(scene.path);
+  std::error_code ignored;
+  const bool isShipped =
+      std::filesystem::equivalent(path.parent_path(), scenes::libraryFolder(), ignored);
+  return isShipped ? scene.name : path.filename().string();
+}
+
 Json describeSettings(const scenes::Scene& scene) {
   const physics::Settings& s = scene.settings;
   Json json = {{"duration", scene.duration},
@@ -36,8 +47,8 @@ Json describeSettings(const scenes::Scene& scene) {
                {"dt", s.dt},
                {"substeps", s.substeps},
                {"iterations", s.iterations},
-               {"method", static_cast<int>(s.method)},
-               {"stepping", static_cast<int>(s.stepping)},
+               {"method", scenes::wordOf(s.method)},
+               {"stepping", scenes::wordOf(s.stepping)},
                {"relaxation", s.relaxation},
                {"regularisation", s.regularisation}};
   json["accuracy"] = s.accuracy ? Json(*s.accuracy) : Json();
@@ -62,6 +73,8 @@ bool RunRecord::sameFrames(const RunRecord& other) const {
 
 RunRecord makeRecord(const scenes::Scene& scene) {
   RunRecord record;
+  record.sceneText = scenes::textOf(scene);
+  record.scenePath = std::filesystem::absolute(scene.path).lexically_normal().string();
   record.program = {{"version", version()},
                     {"compiler", compiler()},
                     {"flags", compileFlags()},
@@ -69,13 +82,16 @@ RunRecord makeRecord(const scenes::Scene& scene) {
   record.scene = {{"name", scene.name},
                   {"title", scene.title},
                   {"description", scene.description},
-                  {"text_hash", hashText(scene.text)},
+                  {"source", sourceOf(scene)},
+                  {"text_hash", hashText(record.sceneText)},
                   {"overrides", scene.overrides},
                   {"effects", scene.effects}};
   record.settings = describeSettings(scene);
   record.warnings = scenes::startWarnings(scene);
   return record;
 }
+
+std::string sceneHash(const scenes::Scene& scene) { return hashText(scenes::textOf(scene)); }
 
 void noteWarnings(const RunRecord& record) {
   for (const std::string& warning : record.warnings) {
@@ -137,7 +153,11 @@ Json describeVerdicts(const std::vector<scenes::Checker::Verdict>& verdicts) {
 std::string hexadecimal(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
-  std::ifstream file(folder / kFile);
+  return readRecordFile(folder / kFile);
+}
+
+std::optional<RunRecord> readRecordFile(const std::filesystem::path& path) {
+  std::ifstream file(path);
   const Json json = Json::parse(file, nullptr, false);
   if (!json.is_object()) return std::nullopt;
   try {
@@ -152,6 +172,9 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
     record.video = json.at("video");
     record.accuracy = json.value("accuracy", record.accuracy);
     record.warnings = json.value("warnings", record.warnings);
+    record.frames = json.value("frames", record.frames);
+    record.sceneText = json.value("scene_text", record.sceneText);
+    record.scenePath = json.value("scene_path", record.scenePath);
     record.finished = json.at("finished").get<bool>();
     return record;
   } catch (const Json::exception&) {
@@ -160,11 +183,19 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
 }
 
 void writeRecord(const RunRecord& record, const std::filesystem::path& folder) {
-  const Json json = {{"program", record.program},         {"scene", record.scene},
-                     {"settings", record.settings},       {"picture", record.picture},
-                     {"finished", record.finished},       {"warnings", record.warnings},
-                     {"accuracy", record.accuracy},       {"video", record.video},
-                     {"seconds", record.seconds},         {"expectations", record.expectations},
+  const Json json = {{"program", record.program},
+                     {"scene", record.scene},
+                     {"settings", record.settings},
+                     {"picture", record.picture},
+                     {"frames", record.frames},
+                     {"finished", record.finished},
+                     {"warnings", record.warnings},
+                     {"accuracy", record.accuracy},
+                     {"video", record.video},
+                     {"seconds", record.seconds},
+                     {"expectations", record.expectations},
+                     {"scene_path", record.scenePath},
+                     {"scene_text", record.sceneText},
                      {"state_hashes", record.stateHashes}};
   constexpr int kIndent = 1;
   writeFile(folder / kFile, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");

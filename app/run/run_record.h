@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 struct RunRecord {
   // What the states depend on, and what the frames depend on beside them (null: nothing was drawn).
   Json program, scene, settings, picture;
+  std::string sceneText, scenePath;  // scenes::textOf, and where its assets are looked for
+  std::string frames;                // that were asked for last, as --frames takes them
 
   std::vector<std::string> stateHashes;  // per frame; empty text: not known
   Json expectations = Json::array();     // verdicts, once the whole run was simulated
@@ -32,7 +34,8 @@ struct RunRecord {
 };
 
 RunRecord makeRecord(const scenes::Scene& scene);
-void noteWarnings(const RunRecord& record);  // on stderr
+std::string sceneHash(const scenes::Scene& scene);  // of scenes::textOf, 16 hex digits
+void noteWarnings(const RunRecord& record);         // on stderr
 Json describePicture(const render::RendererOptions& options, const render::Renderer::Info& info,
                      bool hud, const scenes::Overlays& overlays);
 // Of a frame, onto RunRecord::accuracy: asked, accepted_steps, rejected_steps, order (the highest),
@@ -45,6 +48,7 @@ std::string hexadecimal(std::uint64_t hash);
 
 // Absent or unreadable: nullopt, and the folder is treated as new.
 std::optional<RunRecord> readRecord(const std::filesystem::path& folder);
+std::optional<RunRecord> readRecordFile(const std::filesystem::path& file);
 void writeRecord(const RunRecord& record, const std::filesystem::path& folder);
 
 const char* qualityName(render::Quality quality);

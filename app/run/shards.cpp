@@ -112,7 +112,7 @@ Collected collectFrames(const scenes::Scene& scene, const RenderJob& job) {
   }
   Collected collected;
   RunRecord& record = collected.result.record = makeRecord(scene);
-  record.picture = describePicture(job.renderer, {}, job.view.hud, job.view.overlays);
+  notePicture(job, {}, record);
   record.picture["renderer"] = shards.front().record.picture.value("renderer", Json());
   takeRecords(shards, record);
   const FrameFolder frames(job.folder);

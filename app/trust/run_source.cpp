@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "app/base/build_info.h"
-
 namespace app {
 
 namespace {
@@ -18,7 +16,7 @@ void findScene(RunSource& source, const std::string& asked) {
   const std::string name = asked.empty() ? was.value("name", "") : asked;
   try {
     scenes::Scene scene = scenes::readScene(name, overrides);
-    if (hashText(scene.text) == was.value("text_hash", "")) {
+    if (sceneHash(scene) == was.value("text_hash", "")) {
       source.scene = std::move(scene);
     } else {
       source.noTrack = fmt::format("{} is not what it was when this was run", scene.path);

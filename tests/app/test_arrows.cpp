@@ -100,7 +100,7 @@ const std::map<std::string, std::vector<std::string>> kPackages = {
     {"GL/", {"render/"}},
     {"imgui", {"render/"}},
     {"stb_", {"render/png.cpp"}},
-    {"libdeflate", {"render/png.cpp", "app/base/npz", "app/take/numbers"}},
+    {"libdeflate", {"render/png", "app/base/npz", "app/take/numbers"}},
     {"tiny_gltf", {"app/take/gltf"}},
     {"toml++/", {"scenes/read/toml.cpp"}},
     {"muParser", {"scenes/read/expression.cpp"}},

@@ -1,0 +1,77 @@
+// Texts from a run's record.
+#include "app/run/provenance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace app {
+
+namespace {
+
+// As a shell takes it for one word.
+std::string shellWord(const std::string& word) {
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string("._-+/:=,%@").find(static_cast<char>(c)) != std::string::npos;
+  });
+  if (plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string program(const RunRecord& record) {
+  return "dbd " + record.program.value("version", std::string());
+}
+
+std::string sceneAndHash(const RunRecord& record) {
+  return fmt::format("{} {}", record.scene.value("source", std::string()),
+                     record.scene.value("text_hash", std::string()));
+}
+
+}  // namespace
+
+std::string commandOf(const RunRecord& record, const std::string& frames) {
+  const Json& picture = record.picture;
+  std::string line = "dbd render " + shellWord(record.scene.value("source", std::string()));
+  for (const Json& setting : record.scene.value("overrides", Json::array())) {
+    line += " --set " + shellWord(setting.get<std::string>());
+  }
+  line += fmt::format(" --quality {} --size {}x{}", picture.value("quality", std::string()),
+                      picture.value("width", 0), picture.value("height", 0));
+  const auto overlays = picture.value("asked_overlays", std::vector<std::string>());
+  if (!overlays.empty()) line += fmt::format(" --overlays {}", fmt::join(overlays, ","));
+  if (picture.contains("print_width")) {
+    line += fmt::format(" --print-width {}", picture.value("print_width", 0.0));
+  }
+  if (picture.contains("trusted_until")) {
+    line += " --trust";
+  } else if (picture.value("hud", false)) {
+    line += " --hud";
+  }
+  return frames.empty() ? line : line + " --frames " + frames;
+}
+
+render::PngNotes notesOf(const RunRecord& record, int frame) {
+  const int fps = std::max(1, record.settings.value("fps", 1));
+  render::PngNotes notes;
+  notes.texts = {{"Title", record.scene.value("title", std::string())},
+                 {"Software", program(record)},
+                 {"Scene", sceneAndHash(record)},
+                 {"Frame", fmt::format("{}", frame)},
+                 {"Time", fmt::format("{:.6g} s", static_cast<double>(frame) / fps)},
+                 {"Command", commandOf(record, fmt::format("{}", frame))}};
+  notes.printedWidth = record.picture.value("print_width", 0.0) / 100;
+  return notes;
+}
+
+std::vector<std::array<std::string, 2>> filmNotes(const RunRecord& record) {
+  return {{"title", record.scene.value("title", std::string())},
+          {"comment",
+           fmt::format("{}; {}; scene {}", program(record),
+                       commandOf(record, record.frames) + " --video", sceneAndHash(record))}};
+}
+
+}  // namespace app
