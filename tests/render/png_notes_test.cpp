@@ -15,7 +15,7 @@ using PngNotesFile = TestFolder;
 
 const Image kGrey{2, 1, std::vector<std::uint8_t>(6, 128)};
 
-std::string bytesOf(const std::filesystem::path& file) {
+std::string allBytesOf(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -24,7 +24,8 @@ TEST_F(PngNotesFile, StandBehindTheHeadAndLeaveThePixels) {
   const PngNotes notes{{{"Title", "A ball"}, {"Frame", "17"}}, 0.0};
   writePng(kGrey, folder / "plain.png");
   writePng(kGrey, folder / "noted.png", notes);
-  const std::string plain = bytesOf(folder / "plain.png"), noted = bytesOf(folder / "noted.png");
+  const std::string plain = allBytesOf(folder / "plain.png"),
+                    noted = allBytesOf(folder / "noted.png");
   EXPECT_EQ(noted, plain.substr(0, 33) + noteChunks(notes, 2) + plain.substr(33));
   EXPECT_EQ(readPng(folder / "noted.png"), kGrey);
 }
