@@ -30,9 +30,9 @@ TEST(WriteScene, WritesOutWhatIsRepeatedAndComputed) {
       "shape = { sphere = { radius = \"= r\" } }\n");
   EXPECT_EQ(textOf(scene),
             "title = \"Balls of \\\"0.25\\\" m\"\n"
-            "\n[[body]]\nname = \"ball 0\"\nposition = [0.0, 0, 1e-09]\n"
+            "\n[[body]]\nname = \"ball 0\"\nposition = [0, 0, 1e-09]\n"
             "shape = { sphere = { radius = 0.25 } }\n"
-            "\n[[body]]\nname = \"ball 1\"\nposition = [2.0, 0, 1e-09]\n"
+            "\n[[body]]\nname = \"ball 1\"\nposition = [2, 0, 1e-09]\n"
             "shape = { sphere = { radius = 0.25 } }\n");
 }
 
