@@ -50,6 +50,16 @@ void SmallSteps::Impl::learnAccurate(const Model& w,
   trialNow = trialStart = trialEnd = w.bodies.pose;
 }
 
+// Constant forces are loads of the step: they join nothing, and the lanes of contacts are free of
+// joints.
+void SmallSteps::Impl::takeForces(Model& w) {
+  if (!w.settings.accuracy) return;
+  for (const ConstantForce& push : std::get<Kind<ForceDef, ConstantForce>>(w.kinds).set.items) {
+    w.loads[push.bodies[0]].force += push.force;
+    w.loaded.push_back(push.bodies[0]);
+  }
+}
+
 // False: nothing is changed.
 bool SmallSteps::Impl::advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report) {
   if (accurateOf[root] < 0) return false;

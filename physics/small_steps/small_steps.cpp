@@ -151,6 +151,7 @@ void SmallSteps::Impl::advance(Model& w, StepReport& report) {
 void SmallSteps::step(Model& w, const std::function<void()>& wake, StepReport& report) {
   impl_->wake = &wake;
   impl_->learn(w);
+  Impl::takeForces(w);
   if (impl_->fresh && w.touches) impl_->learnLoads(w);
   impl_->advance(w, report);
 }

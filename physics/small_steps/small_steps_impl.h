@@ -6,6 +6,7 @@
 //   deep.cpp          overlaps that take more than a few substeps
 //   contact_motion.cpp bodies into these lanes, and back
 //   take_turns.cpp    contacts and joints in turns, and that no energy comes of it
+//   given.cpp         what contacts give bodies, by an accuracy
 //   renew.cpp         rows anew of what has turned far
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds, and those that are about to meet
@@ -82,6 +83,12 @@ struct alignas(32) LaneNumbers {
   float of[ContactBlock::kLanes] = {};
 };
 
+// What the contacts of a block carry.
+struct ContactLoads {
+  float point[ContactBlock::kPoints][ContactBlock::kLanes] = {};
+  float tangent[2][ContactBlock::kLanes] = {}, twist[ContactBlock::kLanes] = {};
+};
+
 // Islands of equal substeps and sweeps, which step side by side.
 struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
@@ -103,9 +110,11 @@ struct SmallSteps::Batch {
   std::vector<LaneStart> before;      // of the motions, when the bodies last knew of them
   std::vector<LaneMass> masses;
   std::vector<LaneInverse> inverses;
-  std::vector<BodyId> slots;    // the body of each slot
-  std::vector<KeptStart> kept;  // of `bodies`, where joints may have to make their step again
-  std::vector<char> turned;     // by slot: so far that its rows are to be prepared anew
+  std::vector<ContactLoads> told;   // by block: what bodies know of
+  std::vector<Displacement> given;  // by slot: impulses, and turns in the units of the lanes
+  std::vector<BodyId> slots;        // the body of each slot
+  std::vector<KeptStart> kept;      // of `bodies`, where joints may have to make their step again
+  std::vector<char> turned;         // by slot: so far that its rows are to be prepared anew
 
   bool takesTurns() const { return joined == Joined::kTakesTurns; }
   // More than contacts of rigid bodies.
@@ -184,6 +193,7 @@ struct SmallSteps::Impl {
 
   void learn(Model& w);
   void learnAccurate(const Model& w, const std::vector<std::vector<JointRef>>& rows);
+  static void takeForces(Model& w);
   void advanceAccurately(Model& w, double dt, AccuracyReport& report);
   bool advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report);
   bool stepsAccurately(const Model& w, const Batch& batch) const;
@@ -191,6 +201,11 @@ struct SmallSteps::Impl {
   double changeOf(const Batch& batch, double& way);
   void watchVelocities(const Model& w, const Batch& batch);
   void closeVelocities(Model& w, Batch& batch, double h);
+  bool givesExactly(const Model& w, const Batch& batch) const;
+  void startGiving(const Model& w, Batch& batch);
+  void noteGiven(const Model& w, Batch& batch);
+  bool giveExactly(const Model& w, Batch& batch);
+  static void giveLane(Batch& batch, const ContactBlock& block, const ContactLoads& told, int lane);
   double sizeOf(const Bodies& b, const Batch& batch) const;
   void begin(const Model& w, const Batch& batch, double dt);
   void tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report);

@@ -150,11 +150,12 @@ void SmallSteps::Impl::lookAgain(Model& w, Batch& batch, double h) {
 // X <- X + u. Contacts alone leave the lanes as they are, but where a turn of inertia changes them.
 void SmallSteps::Impl::displaceAll(Model& w, Batch& batch, double h) {
   const bool inLanes = !batch.blocks.empty(), alone = inLanes && !batch.isMixed();
+  const bool isGiven = giveExactly(w, batch);
   w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
                          [&](int from, int to) {
                            for (int k = from; k < to; ++k) {
                              const BodyId i = batch.bodies[k];
-                             if (alone) fromLane(batch, k + 1);
+                             if (alone && !isGiven) fromLane(batch, k + 1);
                              displaceBody(w, i, h);
                              if (!inLanes) continue;
                              LaneMotion& lane = batch.motions[k + 1];
@@ -313,16 +314,17 @@ void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& rep
   profileScope("motion");
   displaceAll(w, batch, h);
   renewTurned(w, batch);
+  noteGiven(w, batch);
   giveOtherHalf(w, batch, h);
   solveVelocities(w, batch, h);
   profileScope("motion");
-  const bool alone = !batch.blocks.empty() && !batch.isMixed();
+  const bool alone = !batch.blocks.empty() && !batch.isMixed(), isGiven = giveExactly(w, batch);
   w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
                          [&](int from, int to) {
                            for (int k = from; k < to; ++k) {
                              const BodyId i = batch.bodies[k];
                              if (inertiaOf[i] == Inertia::kGiven) continue;
-                             if (alone) fromLane(batch, k + 1);
+                             if (alone && !isGiven) fromLane(batch, k + 1);
                              b.velocity[i].v = moved[i].u / h;
                              b.velocity[i].w = moved[i].theta / h;
                            }

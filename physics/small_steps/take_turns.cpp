@@ -54,6 +54,7 @@ void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const Joint
   profileScope("contact");
   toLanes(w, batch);
   respond(batch);
+  startGiving(w, batch);
   warmStartContacts(w, batch);
   PositionSweep which = {.push =
                              static_cast<float>(w.settings.contact->maxSeparationSpeed * stage.h)};

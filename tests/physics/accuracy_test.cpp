@@ -301,6 +301,33 @@ TEST(Accuracy, FindsWhereSlidingEnds) {
   EXPECT_LT(slide(1e-3), 1e-3);
 }
 
+// Friction and a constant force are as in a textbook. Rounded to the single precision of the lanes,
+// 10 m/s would lose some 1e-4 m/s of its own in half a second.
+TEST(Accuracy, KeepsTheMomentumOfWhatSlidesFast) {
+  constexpr double nu = 0.3, push = 2, mass = 1.7, seconds = 0.5;
+  Settings settings = asking(1e-4);
+  settings.contact = ContactSettings{};
+  settings.contact->friction = {nu, nu};
+  World world(settings);
+  BodyDef floor;
+  floor.motion = Motion::kStatic;
+  floor.shape = Plane{};
+  world.add(floor);
+  BodyDef box;
+  box.shape = Box{Vec3(0.6, 0.02, 0.6)};
+  box.mass = mass;
+  box.pose.x = Vec3(0, 0.01, 0);
+  box.velocity.v = Vec3(10, 0, 0);
+  const BodyId body = world.add(box);
+  ForceDef force;
+  force.bodies = {body};
+  force.force = Vec3(push, 0, 0);
+  world.add(force);
+  after(world, seconds);
+  const double speed = 10 + (push / mass - nu * kGravity) * seconds;
+  EXPECT_NEAR(world.bodies().velocity[body].v.x(), speed, 1e-5);
+}
+
 // What rests is left as the default leaves it.
 TEST(Accuracy, LeavesAStackAlone) {
   const auto stack = [](std::optional<double> accuracy) {
