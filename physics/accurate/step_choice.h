@@ -17,6 +17,8 @@ class StepChoice {
   int columns() const { return columns_; }
   // Of what is left of `time`.
   double next(double left, double time);
+  // One more column, for the step that is being made. False: there are no more.
+  bool extend() { return columns_ < most_ && ++columns_ > 0; }
   // A step that errs by too much; an infinite error is one that failed.
   void reject(double step, double error, double allowed);
   // `coarser`: the error of one column less.

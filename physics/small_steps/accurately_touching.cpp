@@ -14,6 +14,11 @@ constexpr double kKnown = 1e-6;
 
 double square(double x) { return x * x; }
 
+bool slides(const KeptContact& c, double along, double normal) {
+  constexpr double kOnCone = 1 - 1e-5;  // but for single precision
+  return normal > 0 && along >= kOnCone * c.friction.dynamicCoefficient * normal;
+}
+
 }  // namespace
 
 bool SmallSteps::Impl::stepsAccurately(const Model& w, const Batch& batch) const {
@@ -77,7 +82,7 @@ void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {
 }
 
 // From where `batch.kept` stands, in so many substeps, to the next row of its tableau.
-void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report) {
+void SmallSteps::Impl::addRow(Model& w, Batch& batch, double whole, int steps, StepReport& report) {
   goBack(w.bodies, batch);
   run(w, batch, whole / steps, steps, report);
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
@@ -85,25 +90,60 @@ void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int steps, S
     trial.velocity[k] = w.bodies.velocity[batch.bodies[k]];
   }
   trial.tableau.add(steps, 1, trial.pose, trial.velocity);
+  trial.steps = steps;
+  trial.coarser = trial.error;
+  if (trial.tableau.rows() == 1) return;
+  trial.error =
+      trial.tableau.difference(trial.extent, trial.time, trial.turns, trial.allowed, &trial.places);
 }
 
-// A step of `whole`, by a tableau whose last row has so many substeps.
-void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, int columns, int most,
+// A step of `whole`, by a tableau whose last row has so many substeps; and by further columns,
+// where it is smooth and they do. Where contacts change no column does better than the last row's
+// substeps: what these err by is the difference to all of them.
+void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, StepChoice& choice, int most,
                               StepReport& report) {
+  const int columns = choice.columns();
+  const auto stepsOf = [&](int row) { return (most * row + columns - 1) / columns; };
   trial.error = trial.coarser = std::numeric_limits<double>::infinity();
   trial.places = 0;
   trial.tableau.clear(batch.bodies.size());
-  for (int j = 1; j <= columns; ++j) {
-    tryOut(w, batch, whole, (most * j + columns - 1) / columns, report);
-    trial.coarser = trial.error;
-    if (j == 1) continue;
-    trial.error = trial.tableau.difference(trial.extent, trial.time, trial.turns, trial.allowed,
-                                           &trial.places);
+  for (int j = 1; j <= columns; ++j) addRow(w, batch, whole, stepsOf(j), report);
+  trial.changes = changesIn(batch);
+  while (trial.changes == 0 && trial.error > trial.allowed && choice.extend()) {
+    addRow(w, batch, whole, stepsOf(choice.columns()), report);
+    trial.changes = changesIn(batch);
   }
+  if (trial.changes > 0) {
+    trial.error = std::max(trial.error, trial.tableau.gain(trial.extent, trial.time, trial.turns));
+  }
+}
+
+// Contacts that touch at other points at the end of a step than they did before, or that slide or
+// stick now and did not.
+int SmallSteps::Impl::changesIn(const Batch& batch) const {
+  int count = 0;
+  for (const ContactBlock& block : batch.blocks) {
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
+      const KeptContact& c = contacts[block.contact[l]];
+      double sum = 0, before = 0;
+      bool isChanged = false;
+      for (int k = 0; k < c.count; ++k) {
+        const double now = block.point[k].lambda[l];
+        isChanged = isChanged || (now > 0) != (c.lambda[k] > 0);
+        sum += now;
+        before += c.lambda[k];
+      }
+      const double along = std::hypot(block.tangent[0].lambda[l], block.tangent[1].lambda[l]);
+      count += isChanged || slides(c, along, sum) != slides(c, c.tangential.norm(), before);
+    }
+  }
+  return count;
 }
 
 // What rests is left to rest: where the last row's end is known no better, it is that.
 void SmallSteps::Impl::takeBest(Model& w, const Batch& batch) {
+  if (trial.changes > 0) return;
   if (!(trial.tableau.gain(trial.extent, trial.time, trial.turns) > kKnown)) return;
   trial.tableau.best(trial.pose, trial.velocity);
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
@@ -147,10 +187,9 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
     }
     const double next = hits ? 0 : choice.next(left, dt);
     const double whole = std::min(std::max(next, kLeastPart * dt), left);
-    const int columns = choice.columns();
-    const int most = std::max(columns, static_cast<int>(std::ceil(count * whole / dt)));
+    const int most = std::max(choice.columns(), static_cast<int>(std::ceil(count * whole / dt)));
     keepStart(w, batch);
-    tryOut(w, batch, whole, columns, most, report);
+    tryOut(w, batch, whole, choice, most, report);
     const bool isSmall = trial.error <= trial.allowed;
     if (!isSmall && whole > kLeastPart * dt && trial.places <= kMostPlaces) {
       ++told.rejected;
@@ -163,11 +202,11 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
         takeBest(w, batch);
         choice.accept(whole, trial.error, trial.coarser, trial.allowed, dt);
       }
-      told.order = std::max(told.order, columns);
+      told.order = std::max(told.order, choice.columns());
     }
     hits = false;
-    takeOver(w, batch, whole / most);
-    batch.joints.finish(w.kinds, whole / most);
+    takeOver(w, batch, whole / trial.steps);
+    batch.joints.finish(w.kinds, whole / trial.steps);
     ++told.accepted;
     told.least = told.least > 0 ? std::min(told.least, whole) : whole;
     told.estimate += trial.error;

@@ -158,6 +158,7 @@ struct SmallSteps::Impl {
     double time = 0;  // that an error of velocity lasts: of the step, not of a part of it
     double extent = 0, allowed = 0, error = 0, coarser = 0;  // coarser: by a column less
     int places = 0;                                          // bodies that err by too much
+    int changes = 0, steps = 0;  // contacts that changed; substeps of the last row
   } trial;
   std::vector<LaneStart> swept;       // by slot: after the last sweep
   bool known = false;                 // these are those of the world's constraints
@@ -208,8 +209,10 @@ struct SmallSteps::Impl {
   static void giveLane(Batch& batch, const ContactBlock& block, const ContactLoads& told, int lane);
   double sizeOf(const Bodies& b, const Batch& batch) const;
   void begin(const Model& w, const Batch& batch, double dt);
-  void tryOut(Model& w, Batch& batch, double whole, int steps, StepReport& report);
-  void tryOut(Model& w, Batch& batch, double whole, int columns, int most, StepReport& report);
+  void addRow(Model& w, Batch& batch, double whole, int steps, StepReport& report);
+  void tryOut(Model& w, Batch& batch, double whole, StepChoice& choice, int most,
+              StepReport& report);
+  int changesIn(const Batch& batch) const;
   void takeBest(Model& w, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch, std::size_t k);

@@ -299,6 +299,7 @@ TEST(Accuracy, FindsWhereSlidingEnds) {
   EXPECT_GT(slide(std::nullopt), 1e-2);
   EXPECT_LT(slide(1e-2), 1e-2);
   EXPECT_LT(slide(1e-3), 1e-3);
+  EXPECT_LT(slide(1e-5), 1e-5);
 }
 
 // Friction and a constant force are as in a textbook. Rounded to the single precision of the lanes,
