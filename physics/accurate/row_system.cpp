@@ -40,7 +40,26 @@ void RowSystem::build(std::span<const IslandRow> rows, std::span<const BodyInver
   }
 }
 
+// A row of one number, whose blocks have no more than a column.
+void RowSystem::eliminateSingle(int i) {
+  const JointColumn& column = topology_->columns[i];
+  const JointBelow* below = topology_->below.data() + column.start;
+  diagonal_[i](0, 0) = 1 / diagonal_[i](0, 0);
+  for (int q = 0; q < column.count; ++q) {
+    const int block = below[q].block;
+    scaled_[block].setZero();
+    auto scaled = scaled_[block].col(0);
+    scaled = entries_[block].col(0) * diagonal_[i](0, 0);
+    const int* target = topology_->updates.data() + column.updates + q * (q + 1) / 2;
+    for (int p = 0; p < q; ++p) {
+      entries_[target[p]] -= scaled * entries_[below[p].block].col(0).transpose();
+    }
+    diagonal_[below[q].to] -= scaled * entries_[block].col(0).transpose();
+  }
+}
+
 void RowSystem::eliminate(int i) {
+  if (topology_->shapes[i].rows == 1) return eliminateSingle(i);
   const JointColumn& column = topology_->columns[i];
   const JointBelow* below = topology_->below.data() + column.start;
   diagonal_[i] = diagonal_[i].inverse().eval();

@@ -21,12 +21,14 @@ struct IslandRow {
 struct BodyInverse {
   double mass = 0;              // 1/kg
   Mat3 inertia = Mat3::Zero();  // 1/(kg m^2)
+  bool turns = false;           // else that is zero
 };
 
 // J_k M^-1 J_i^T of a body that is at place p of row k and q of row i.
 inline Mat3 couple(const IslandRow& k, int p, const IslandRow& i, int q, const BodyInverse& body) {
-  return body.mass * (k.linear[p] * i.linear[q].transpose()) +
-         k.angular[p] * (body.inertia * i.angular[q].transpose());
+  Mat3 sum = body.mass * (k.linear[p] * i.linear[q].transpose());
+  if (body.turns) sum += k.angular[p] * (body.inertia * i.angular[q].transpose());
+  return sum;
 }
 
 // Keeps a factor regular where rows repeat each other (loops): relative to the row's own A. What it
@@ -43,6 +45,7 @@ class RowSystem {
  private:
   void build(std::span<const IslandRow> rows, std::span<const BodyInverse> bodies);
   void eliminate(int row);
+  void eliminateSingle(int row);
   std::shared_ptr<const JointTopology> topology_;
   std::vector<Mat3> diagonal_;          // then D^-1
   std::vector<Mat3> entries_, scaled_;  // A_ki and L_ki, by block

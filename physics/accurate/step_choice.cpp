@@ -23,7 +23,9 @@ double rootOf(double x, int n) {
   for (int k = 0; k < 40; ++k) {
     double power = 1;
     for (int i = 1; i < n; ++i) power *= root;
-    root -= (root - x / power) / n;
+    const double next = root - (root - x / power) / n;
+    if (next == root) break;
+    root = next;
   }
   return scale * root;
 }

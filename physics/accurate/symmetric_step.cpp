@@ -15,7 +15,8 @@ void SymmetricStep::put(const IslandState& state, std::span<Pose> to) const {
 void SymmetricStep::turnInertia() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyInverse& body = present_.inverse[i];
-    if (!turns(i)) continue;
+    body.turns = turns(i);
+    if (!body.turns) continue;
     const Vec3& principal = inverseInertia_[i];
     if (isIsotropic(inertia_[i])) {
       body.inertia = principal.x() * Mat3::Identity();

@@ -84,14 +84,17 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
   takeResponses(batch);
   placeOf.resize(batch.contacts.size());
   std::array<int, kColourLists * ContactBlock::kPoints> first{};  // and by missing points
+  std::array<bool, kColourLists> isUsed{};
   for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
     const KeptContact& c = contacts[batch.contacts[i]];
     placeOf[i] = colourOf(w.bodies, c) * ContactBlock::kPoints + ContactBlock::kPoints -
                  std::max(c.count, 1);
     ++first[placeOf[i]];
+    isUsed[placeOf[i] / ContactBlock::kPoints] = true;
   }
   int lanes = 0;
   for (int list = 0; list < kColourLists; ++list) {
+    if (!isUsed[list]) continue;
     for (int k = list * ContactBlock::kPoints; k < (list + 1) * ContactBlock::kPoints; ++k) {
       const int count = first[k] * laneStride(list);
       first[k] = lanes;
