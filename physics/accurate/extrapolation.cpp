@@ -14,9 +14,7 @@ constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one
 
 }  // namespace
 
-Extrapolation::Extrapolation(SymmetricStep step) : step_(std::move(step)) {
-  for (std::size_t i = 0; i < step_.bodies().size(); ++i) turns_.push_back(step_.turns(i));
-}
+Extrapolation::Extrapolation(SymmetricStep step) : step_(std::move(step)) {}
 
 // The next T_j1.
 bool Extrapolation::run(int n, double whole, const Surroundings& world, const TrialPoses& trial) {
@@ -24,8 +22,15 @@ bool Extrapolation::run(int n, double whole, const Surroundings& world, const Tr
   for (int k = 0; k < n; ++k) {
     if (!step_.step(whole / n, tolerance_, world, trial)) return false;
   }
-  tableau_.add(n, 2, step_.state().pose, step_.state().velocity);
+  row_ = step_.state();
+  step_.takeMomenta(row_);
+  tableau_.add(n, 2, row_.pose, row_.velocity);
   return true;
+}
+
+void Extrapolation::takeBest() {
+  tableau_.best(state_.pose, state_.velocity);
+  step_.takeSpins(state_);
 }
 
 bool Extrapolation::advance(IslandState& state, double time, double accuracy,
@@ -40,10 +45,10 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     if (whole < kLeastPart * time) return choice_.forget(), false;
     tolerance_ = step_.size() * std::max(kFinest, kClosed * allowed / (columns * columns));
     double error = std::numeric_limits<double>::infinity(), coarser = error;  // and of one less
-    tableau_.clear(turns_.size());
+    tableau_.clear(step_.bodies().size());
     for (int j = 1; j <= columns && run(j, whole, world, trial); ++j) {
       coarser = error;
-      if (j > 1) error = tableau_.difference(step_.size(), whole, turns_);
+      if (j > 1) error = tableau_.difference(step_.size(), whole, step_.levers());
     }
     const bool isDone = tableau_.rows() == columns;
     if (!isDone || !(error <= allowed)) {
@@ -51,7 +56,7 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
       choice_.reject(whole, isDone ? error : std::numeric_limits<double>::infinity(), allowed);
       continue;
     }
-    tableau_.best(state_.pose, state_.velocity);
+    takeBest();
     if (!step_.project(state_, tolerance_, world, trial)) return choice_.forget(), false;
     state_ = step_.state();
     ++report.accepted;
@@ -71,11 +76,11 @@ bool Extrapolation::advanceBy(IslandState& state, double time, int columns, int 
   step_.set(state_, world, trial);
   tolerance_ = kFinest * step_.size();
   for (int s = 0; s < steps; ++s) {
-    tableau_.clear(turns_.size());
+    tableau_.clear(step_.bodies().size());
     for (int j = 1; j <= columns; ++j) {
       if (!run(j, time / steps, world, trial)) return false;
     }
-    tableau_.best(state_.pose, state_.velocity);
+    takeBest();
     step_.project(state_, tolerance_, world, trial);
     state_ = step_.state();
   }

@@ -17,8 +17,8 @@ class Extrapolation {
   explicit Extrapolation(SymmetricStep step);
 
   const SymmetricStep& step() const { return step_; }
-  // From `state` by `time`, right to `accuracy` of the island's size and to so many rad. False:
-  // out of reach; `state` is as before.
+  // From `state` by `time`, every point of it right to `accuracy` of the island's size. False: out
+  // of reach; `state` is as before.
   bool advance(IslandState& state, double time, double accuracy, const Surroundings& world,
                const TrialPoses& trial, AccuracyReport& report);
   // The same with a given order 2k and steps.
@@ -27,11 +27,11 @@ class Extrapolation {
 
  private:
   bool run(int n, double whole, const Surroundings& world, const TrialPoses& trial);
+  void takeBest();
 
   SymmetricStep step_;
   Tableau tableau_;
-  std::vector<char> turns_;  // by body
-  IslandState state_;
+  IslandState state_, row_;
   StepChoice choice_{2, 2, Tableau::kMostRows};
   double tolerance_ = 0;  // that joints close to
 };

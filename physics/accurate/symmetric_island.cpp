@@ -1,5 +1,6 @@
 // A symmetric step's island: what it is made of, and how it is put into a state.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "physics/accurate/symmetric_step.h"
@@ -22,6 +23,14 @@ std::vector<BodyId> bodiesOf(std::span<const JointRef> refs, std::span<const Bod
 }
 
 }  // namespace
+
+// Of a body by itself: its shape's, and no less than its mass reaches.
+double SymmetricStep::leverOf(std::size_t place, const Surroundings& world) const {
+  if (!turns(place)) return 0;
+  const BodyId i = bodies_[place];
+  const double gyration = std::sqrt(inertia_[place].maxCoeff() / world.bodies.mass[i]);
+  return std::max(boundingRadius(world.bodies.shape[i]), gyration);
+}
 
 bool SymmetricStep::takes(std::span<const JointRef> refs, const Surroundings& world) {
   return std::all_of(refs.begin(), refs.end(), [&](const JointRef ref) {
@@ -56,6 +65,7 @@ SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const Bod
     inertia_.push_back(world.bodies.inertia[i]);
     inverseInertia_.push_back(world.bodies.inverseInertia[i]);
   }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) levers_.push_back(leverOf(i, world));
   const std::size_t rows = refs_.size(), size = bodies_.size();
   present_.joints = RowSystem(topology_);
   all_ = RowSystem(topology_);
@@ -98,13 +108,16 @@ void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) 
     clear(row);
     evaluateRow(world.kinds, refs_[i], {trial.start, trial.start, 1}, row);
     for (int b = 0; row.active && b < shape.bodyCount; ++b) {
-      reach(trial.start[bodies_[shape.body[b]]].x + row.arm[b]);
+      const int place = shape.body[b];
+      reach(trial.start[bodies_[place]].x + row.arm[b]);
+      if (turns(place)) levers_[place] = std::max(levers_[place], row.arm[b].norm());
     }
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!moves_[i]) continue;
     reach(trial.start[bodies_[i]].x);
     size_ = std::max(size_, boundingRadius(world.bodies.shape[bodies_[i]]));
+    size_ = std::max(size_, levers_[i]);
   }
   size_ = std::max(size_, (high - low).norm());
 }
@@ -144,6 +157,24 @@ bool SymmetricStep::project(const IslandState& state, double tolerance, const Su
   stop(0);
   first_ = present_;
   return closed;
+}
+
+void SymmetricStep::takeMomenta(IslandState& state) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!turns(i) || isIsotropic(inertia_[i])) continue;
+    const Vec3 omega = state.pose[i].q.conjugate() * state.velocity[i].w;
+    const Vec3 momentum = inertia_[i].cwiseProduct(omega) / inertia_[i].maxCoeff();
+    state.velocity[i].w = state.pose[i].q * momentum;
+  }
+}
+
+void SymmetricStep::takeSpins(IslandState& state) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!turns(i) || isIsotropic(inertia_[i])) continue;
+    const Vec3 momentum = state.pose[i].q.conjugate() * state.velocity[i].w;
+    const Vec3 omega = inverseInertia_[i].cwiseProduct(momentum) * inertia_[i].maxCoeff();
+    state.velocity[i].w = state.pose[i].q * omega;
+  }
 }
 
 void SymmetricStep::restart() { present_ = first_; }

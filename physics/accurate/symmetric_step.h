@@ -56,9 +56,17 @@ class SymmetricStep {
   bool turns(std::size_t place) const { return moves_[place] && !inverseInertia_[place].isZero(0); }
   double size() const { return size_; }  // m: the largest extent that the island has had
 
+  // m, by place: how far points of a body have been from its centre, those of its joints too; 0
+  // where it does not turn.
+  std::span<const double> levers() const { return levers_; }
+
   // Puts the island into a state: rows and factor there.
   void set(const IslandState& state, const Surroundings& world, const TrialPoses& trial);
   const IslandState& state() const { return present_.state; }
+  // Spins as angular momenta, over the largest moment of each body, and back: what a flight keeps
+  // is kept by what is linear in it.
+  void takeMomenta(IslandState& state) const;
+  void takeSpins(IslandState& state) const;
   // Back to the state of the last `set`.
   void restart();
   // From where it is by h, joints closed to `tolerance` [m, rad]. False: they do not close, or a
@@ -89,6 +97,7 @@ class SymmetricStep {
   void put(const IslandState& state, const Surroundings& world, const TrialPoses& trial);
   void measure(const Surroundings& world, const TrialPoses& trial);
   void turnInertia();
+  double leverOf(std::size_t place, const Surroundings& world) const;
   void lookAt(std::span<const Pose> now, const TrialPoses& trial, const Surroundings& world,
               double h);
   void lookAtForces(const Surroundings& world, const TrialPoses& trial, double h);
@@ -110,6 +119,7 @@ class SymmetricStep {
   std::vector<bool> moves_;
   std::vector<Vec3> inertia_, inverseInertia_;  // principal
   double size_ = 0;
+  std::vector<double> levers_;
   std::vector<JointRef> refs_, limits_;  // refs_ in the order of elimination
   std::vector<bool> isForce_;
   bool hasForces_ = false;

@@ -51,29 +51,26 @@ void Tableau::best(std::span<Pose> pose, std::span<Velocity> velocity) const {
   }
 }
 
-double Tableau::difference(double size, double time, std::span<const char> turns, double allowed,
+double Tableau::difference(double size, double time, std::span<const double> levers, double allowed,
                            int* places) const {
-  return between(rows_[0], before_, size, time, turns, allowed, places);
+  return between(rows_[0], before_, size, time, levers, allowed, places);
 }
 
-double Tableau::gain(double size, double time, std::span<const char> turns) const {
-  return between(rows_[0], last_, size, time, turns, 0, nullptr);
+double Tableau::gain(double size, double time, std::span<const double> levers) const {
+  return between(rows_[0], last_, size, time, levers, 0, nullptr);
 }
 
 double Tableau::between(const Row& of, const Row& other, double size, double time,
-                        std::span<const char> turns, double allowed, int* places) const {
+                        std::span<const double> levers, double allowed, int* places) const {
   double most = 0;
   bool isNumber = true;
   int count = 0;
   for (std::size_t i = 0; i < size_; ++i) {
     const Numbers &a = of[i], &b = other[i];
-    double error = std::max((a.x - b.x).norm(), time * (a.v - b.v).norm()) / size;
+    const double way = (a.x - b.x).norm() + levers[i] * (a.turn - b.turn).norm();
+    const double speed = (a.v - b.v).norm() + levers[i] * (a.w - b.w).norm();
+    const double error = std::max(way, time * speed) / size;
     isNumber = isNumber && error == error;
-    if (turns[i]) {
-      const double turn = std::max((a.turn - b.turn).norm(), time * (a.w - b.w).norm());
-      isNumber = isNumber && turn == turn;
-      error = std::max(error, turn);
-    }
     most = std::max(most, error);
     count += error > allowed;
   }

@@ -24,14 +24,14 @@ class Tableau {
 
   // T_kk.
   void best(std::span<Pose> pose, std::span<Velocity> velocity) const;
-  // What T_kk and T_k,k-1 differ by: by body, the largest of way and speed * time over `size`, and
-  // where it turns, of turn and spin * time. Infinite where it is not a number.
+  // What T_kk and T_k,k-1 differ by, over `size`: by body the larger of its points' way and speed *
+  // time, which reach so far as its lever. Infinite where it is not a number.
   // `places`: of how many bodies it is more than `allowed`.
-  double difference(double size, double time, std::span<const char> turns, double allowed = 0,
+  double difference(double size, double time, std::span<const double> levers, double allowed = 0,
                     int* places = nullptr) const;
 
   // What T_kk and T_k1 differ by.
-  double gain(double size, double time, std::span<const char> turns) const;
+  double gain(double size, double time, std::span<const double> levers) const;
 
  private:
   struct Numbers {
@@ -42,8 +42,8 @@ class Tableau {
   int count_ = 0, steps_[kMostRows] = {};
   Row rows_[kMostRows];  // [m]: T_j,j-m of the last j
   Row before_, last_;    // T_k,k-1, T_k1
-  double between(const Row& a, const Row& b, double size, double time, std::span<const char> turns,
-                 double allowed, int* places) const;
+  double between(const Row& a, const Row& b, double size, double time,
+                 std::span<const double> levers, double allowed, int* places) const;
   std::vector<Quat> reference_;
 };
 

@@ -93,8 +93,8 @@ void SmallSteps::Impl::addRow(Model& w, Batch& batch, double whole, int steps, S
   trial.steps = steps;
   trial.coarser = trial.error;
   if (trial.tableau.rows() == 1) return;
-  trial.error =
-      trial.tableau.difference(trial.extent, trial.time, trial.turns, trial.allowed, &trial.places);
+  trial.error = trial.tableau.difference(trial.extent, trial.time, trial.levers, trial.allowed,
+                                         &trial.places);
 }
 
 // A step of `whole`, by a tableau whose last row has so many substeps; and by further columns,
@@ -114,7 +114,7 @@ void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, StepChoice& 
     trial.changes = changesIn(batch);
   }
   if (trial.changes > 0) {
-    trial.error = std::max(trial.error, trial.tableau.gain(trial.extent, trial.time, trial.turns));
+    trial.error = std::max(trial.error, trial.tableau.gain(trial.extent, trial.time, trial.levers));
   }
 }
 
@@ -144,7 +144,7 @@ int SmallSteps::Impl::changesIn(const Batch& batch) const {
 // What rests is left to rest: where the last row's end is known no better, it is that.
 void SmallSteps::Impl::takeBest(Model& w, const Batch& batch) {
   if (trial.changes > 0) return;
-  if (!(trial.tableau.gain(trial.extent, trial.time, trial.turns) > kKnown)) return;
+  if (!(trial.tableau.gain(trial.extent, trial.time, trial.levers) > kKnown)) return;
   trial.tableau.best(trial.pose, trial.velocity);
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
     w.bodies.pose[batch.bodies[k]] = trial.pose[k];
@@ -157,11 +157,12 @@ void SmallSteps::Impl::begin(const Model& w, const Batch& batch, double dt) {
   trial.extent = sizeOf(w.bodies, batch);
   trial.time = dt;
   trial.allowed = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
-  trial.turns.resize(size);
+  trial.levers.resize(size);
   trial.pose.resize(size);
   trial.velocity.resize(size);
   for (std::size_t k = 0; k < size; ++k) {
-    trial.turns[k] = !w.bodies.inverseInertia[batch.bodies[k]].isZero(0);
+    const BodyId i = batch.bodies[k];
+    trial.levers[k] = w.bodies.inverseInertia[i].isZero(0) ? 0 : radius[i];
   }
 }
 

@@ -154,7 +154,7 @@ struct SmallSteps::Impl {
     Tableau tableau;
     std::vector<Pose> pose;
     std::vector<Velocity> velocity;
-    std::vector<char> turns;
+    std::vector<double> levers;
     double time = 0;  // that an error of velocity lasts: of the step, not of a part of it
     double extent = 0, allowed = 0, error = 0, coarser = 0;  // coarser: by a column less
     int places = 0;                                          // bodies that err by too much
