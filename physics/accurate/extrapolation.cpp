@@ -39,6 +39,7 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
   const double allowed = kShareOfStep * accuracy;
   state_ = state;
   step_.set(state_, world, trial);
+  stepsOfRow_ = step_.dampsWithin(time, world, trial) ? 2 : 1;
   for (double left = time; left > 0;) {
     const double whole = choice_.next(left, time);
     const int columns = choice_.columns();
@@ -46,7 +47,7 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     tolerance_ = step_.size() * std::max(kFinest, kClosed * allowed / (columns * columns));
     double error = std::numeric_limits<double>::infinity(), coarser = error;  // and of one less
     tableau_.clear(step_.bodies().size());
-    for (int j = 1; j <= columns && run(j, whole, world, trial); ++j) {
+    for (int j = 1; j <= columns && run(stepsOfRow_ * j, whole, world, trial); ++j) {
       coarser = error;
       if (j > 1) error = tableau_.difference(step_.size(), whole, step_.levers());
     }

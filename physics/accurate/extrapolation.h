@@ -34,6 +34,7 @@ class Extrapolation {
   IslandState state_, row_;
   StepChoice choice_{2, 2, Tableau::kMostRows};
   double tolerance_ = 0;  // that joints close to
+  int stepsOfRow_ = 1;    // of the first; the others have so many times more
 };
 
 }  // namespace physics

@@ -5,24 +5,52 @@
 
 namespace physics {
 
+// J M^-1 J^T of a row alone, the sum over its diagonal.
+double SymmetricStep::mobilityOf(std::size_t i, const IslandRow& row) const {
+  const JointShape& shape = topology_->shapes[i];
+  double sum = 0;
+  for (int b = 0; b < shape.bodyCount; ++b) {
+    if (shape.moves[b]) sum += couple(row, b, row, b, present_.inverse[shape.body[b]]).trace();
+  }
+  return sum;
+}
+
+// A force K = k h^2 + nu h of which the damper is so strong that nothing swings, d > 2 w, is stable
+// in steps that do not resolve it, but for a row of one step: the trapezoidal rule takes a velocity
+// into its opposite, and (4 R(z/2)^2 - R(z))/3 into 5/3 of it. Rows of 2, 4, 6 ... steps stay
+// within 1 and damp.
+bool SymmetricStep::dampsWithin(double time, const Surroundings& world, const TrialPoses& trial) {
+  JointRow row;
+  IslandRow gradient;
+  const auto stiffnessAt = [&](std::size_t i, double h) {
+    clear(row);
+    evaluateRow(world.kinds, refs_[i], {trial.start, trial.start, h, {}, {}, trial.start}, row);
+    const bool falls = row.active && row.role == JointRow::Role::kForce;
+    return falls ? topology_->shapes[i].rows / row.alpha.trace() : 0;
+  };
+  bool some = false;
+  isDamped_.assign(refs_.size(), false);
+  for (std::size_t i = 0; hasForces_ && i < refs_.size(); ++i) {
+    if (!isForce_[i]) continue;
+    const double once = stiffnessAt(i, time), twice = stiffnessAt(i, 2 * time);
+    takeRow(row, gradient);
+    const double mobility = mobilityOf(i, gradient) / topology_->shapes[i].rows;
+    const double d = mobility * (4 * once - twice) / (2 * time);
+    const double squared = mobility * (twice - 2 * once) / (2 * time * time);  // w^2
+    isDamped_[i] = d > 0 && d * d >= 4 * squared;
+    some = some || (isDamped_[i] && d * time > 1);
+  }
+  return some;
+}
+
 // A spring of w h > 1 is not resolved: of a stiff one steps of different length may agree on what
 // is not its motion, and where they do not, what is extrapolated grows.
 bool SymmetricStep::resolvesForces() const {
   for (std::size_t i = 0; i < refs_.size(); ++i) {
     const IslandRow& row = present_.rows[i];
-    if (!isForce_[i] || !row.solved) continue;
-    const JointShape& shape = topology_->shapes[i];
-    Mat3 a = Mat3::Zero();
-    for (int b = 0; b < shape.bodyCount; ++b) {
-      if (!shape.moves[b]) continue;
-      const BodyInverse& body = present_.inverse[shape.body[b]];
-      a += body.mass * (row.linear[b] * row.linear[b].transpose()) +
-           row.angular[b] * (body.inertia * row.angular[b].transpose());
-    }
+    if (!isForce_[i] || !row.solved || (!isDamped_.empty() && isDamped_[i])) continue;
     // alpha^-1 is K (h/2)^2, of which A takes (w h/2)^2.
-    double compliance = 0, moves = 0;
-    for (int r = 0; r < shape.rows; ++r) compliance += row.alpha(r, r), moves += a(r, r);
-    if (4 * moves > compliance) return false;
+    if (4 * mobilityOf(i, row) > row.alpha.trace()) return false;
   }
   return true;
 }
@@ -51,6 +79,7 @@ void SymmetricStep::correct() {
 // Newton's iteration with the factor of the start.
 bool SymmetricStep::close(double h, double tolerance, const Surroundings& world,
                           const TrialPoses& trial) {
+  constexpr double kSlow = 0.1;  // what the factor of an iteration before leaves too much of
   const RowSystem* factor = &present_.joints;
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMostIterations; ++k) {
@@ -58,12 +87,12 @@ bool SymmetricStep::close(double h, double tolerance, const Surroundings& world,
     if (!(most < std::numeric_limits<double>::infinity())) return false;
     if (most <= tolerance && (k > 0 || !hasForces_)) return true;
     if (k > 3 && most > 0.5 * last) return most <= 10 * tolerance;
-    last = most;
     if (k == 0 && !resolvesForces()) return false;
-    if (hasForces_ && k < 2) {
+    if (hasForces_ && (k == 0 || (k == 1 && most > kSlow * last))) {
       all_.factorize(present_.rows, present_.inverse);
       factor = &all_;
     }
+    last = most;
     for (Vec3& error : error_) error = -error;
     factor->solve(error_);
     correct();

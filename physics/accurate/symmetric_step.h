@@ -69,6 +69,9 @@ class SymmetricStep {
   void takeSpins(IslandState& state) const;
   // Back to the state of the last `set`.
   void restart();
+  // Of the last `set`: some force damps what it holds within `time`, in which nothing swings. Steps
+  // are to come in pairs.
+  bool dampsWithin(double time, const Surroundings& world, const TrialPoses& trial);
   // From where it is by h, joints closed to `tolerance` [m, rad]. False: they do not close, or a
   // limit is met.
   bool step(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
@@ -105,6 +108,7 @@ class SymmetricStep {
   void sum();
   void move(double h, const Surroundings& world);
   bool resolvesForces() const;
+  double mobilityOf(std::size_t row, const IslandRow& of) const;
   double tryOut(double h, const Surroundings& world, const TrialPoses& trial);
   void correct();
   bool close(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
@@ -121,7 +125,7 @@ class SymmetricStep {
   double size_ = 0;
   std::vector<double> levers_;
   std::vector<JointRef> refs_, limits_;  // refs_ in the order of elimination
-  std::vector<bool> isForce_;
+  std::vector<bool> isForce_, isDamped_;
   bool hasForces_ = false;
   std::shared_ptr<const JointTopology> topology_;
   Present present_, first_;
