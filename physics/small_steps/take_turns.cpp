@@ -124,7 +124,8 @@ void SmallSteps::Impl::takeBack(Batch& batch, ContactBlock& block, const LaneNum
 }
 
 // Contacts take back by a body's own mass what they gave too much, but joints pass on to the others
-// most of what it was given: what a hit leaves behind would throw figures.
+// most of what it was given: what a hit leaves behind would throw figures. Joints of the other
+// islands stay as they are.
 void SmallSteps::Impl::boundWork(Model& w, Batch& batch, const JointStage& stage) {
   if (!findRise(w, batch)) return;
   for (ContactBlock& block : batch.blocks) {
@@ -140,7 +141,8 @@ void SmallSteps::Impl::boundWork(Model& w, Batch& batch, const JointStage& stage
     if (some) takeBack(batch, block, shares);
   }
   fromLanes(w, batch);
-  batch.joints.solveVelocities(stage);
+  for (const BodyId i : batch.bodies) change[i] = change[islands[i]];
+  batch.joints.solveVelocities(stage, change);
 }
 
 }  // namespace physics

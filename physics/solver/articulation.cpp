@@ -114,6 +114,10 @@ void JointPacks::solveVelocities(const JointStage& stage) {
   forEach([&](auto& pack) { pack.solveVelocities(stage); });
 }
 
+void JointPacks::solveVelocities(const JointStage& stage, std::span<const double> wanted) {
+  forEach([&](auto& pack) { pack.solveVelocities(stage, wanted); });
+}
+
 void JointPacks::solveVelocities(const LaneBodies& lanes) {
   forEach([&](auto& pack) { pack.solveVelocities(lanes); });
 }

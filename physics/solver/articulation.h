@@ -112,6 +112,7 @@ class JointPack {
   void closePositions(const JointStage& stage, double tolerance);
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
+  void solveVelocities(const JointStage& stage, std::span<const double> wanted);
   void solveVelocities(const LaneBodies& lanes);
   void refineVelocities(const JointStage& stage);
   void respond();
@@ -205,6 +206,8 @@ class JointPacks {
   // Evaluates at the end of the substep; then, as often as contacts are swept:
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
+  // Of those alone of which `wanted`, by their first body, is more than 0.
+  void solveVelocities(const JointStage& stage, std::span<const double> wanted);
   void solveVelocities(const LaneBodies& lanes);
   void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
   void respond();                                  // of those that ask: `Articulation::response`

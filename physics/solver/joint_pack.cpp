@@ -605,6 +605,17 @@ void JointPack<W>::solveVelocities(const JointStage& stage) {
 }
 
 template <int W>
+void JointPack<W>::solveVelocities(const JointStage& stage, std::span<const double> wanted) {
+  for (int l = 0; l < W; ++l) {
+    open_.v[l] = l < lanes_ && wanted[of_[l]->bodies_.front()] > 0 ? 1 : 0;
+  }
+  if (std::none_of(open_.v, open_.v + W, [](double open) { return open > 0; })) return;
+  gatherMotion<W>(ids_, stage.moved, bodies_);
+  solveOpenVelocities();
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+}
+
+template <int W>
 void JointPack<W>::solveVelocities(const LaneBodies& lanes) {
   openAll();
   takeLanes(lanes);

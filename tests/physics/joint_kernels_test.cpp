@@ -12,9 +12,10 @@
 namespace physics::testing {
 namespace {
 
-Settings falling() {
+Settings falling(bool touches = false) {
   Settings settings;
   settings.gravity = Vec3(0, -9.81, 0);
+  if (touches) settings.contact = ContactSettings{};
   return settings;
 }
 
@@ -178,22 +179,31 @@ void addFigure(World& world, int number) {
   world.setVelocity(bodies[number % 3], {Vec3(number, 3, -1), Vec3(2, 5 - number, number)});
 }
 
-TEST(Articulations, DoNotKnowWhoIsBesideThem) {
-  constexpr int kFigures = 6;
-  World together(falling());
-  for (int number = 0; number < kFigures; ++number) addFigure(together, number);
+// So many figures, each as it goes alone.
+void expectAlone(int figures, bool onGround) {
+  const auto start = [&](World& world) {
+    if (onGround) addGround(world);
+    return world.bodies().size();
+  };
+  World together(falling(onGround));
+  const BodyId first = start(together);
+  for (int number = 0; number < figures; ++number) addFigure(together, number);
   run(together, 120);
-  for (int number = 0; number < kFigures; ++number) {
-    World alone(falling());
+  for (int number = 0; number < figures; ++number) {
+    World alone(falling(onGround));
+    start(alone);
     addFigure(alone, number);
     run(alone, 120);
     for (BodyId k = 0; k < 3; ++k) {
-      const Pose &a = alone.bodies().pose[1 + k], &b = together.bodies().pose[1 + 3 * number + k];
-      EXPECT_EQ(a.x, b.x) << number;
-      EXPECT_EQ(a.q.coeffs(), b.q.coeffs()) << number;
+      expectSameBytes(alone, first + k, together, first + 3 * number + k);
     }
   }
 }
+
+TEST(Articulations, DoNotKnowWhoIsBesideThem) { expectAlone(6, false); }
+
+// Where contacts and joints take turns, eight go side by side.
+TEST(Articulations, DoNotKnowWhoTakesTurnsBesideThem) { expectAlone(13, true); }
 
 }  // namespace
 }  // namespace physics::testing
