@@ -49,6 +49,15 @@ std::vector<char> readFont(const std::string& file) {
   return bytes;
 }
 
+void keep(std::vector<Ink>* all, Ink ink) {
+  if (all != nullptr) all->push_back(std::move(ink));
+}
+
+// Of a rectangle; its rounding is for the screen.
+std::vector<Pixel> cornersOf(const Pixel& from, const Pixel& to) {
+  return {from, {to.x(), from.y()}, to, {from.x(), to.y()}};
+}
+
 // The font in one size, with the texture of its glyphs.
 struct Face {
   ImFontAtlas atlas;
@@ -96,6 +105,8 @@ struct Canvas::Impl {
   GLuint program = 0, array = 0, vertices = 0, indices = 0;
   GLint sizeUniform = -1;
   int width = 0, height = 0;
+  std::vector<Ink>* ink = nullptr;  // that records; null: nothing does
+  bool inHalo = false;              // its copies are no text of their own
 };
 
 Canvas::Impl::Impl(const std::string& fontFile) : fontBytes(readFont(fontFile)) {
@@ -180,8 +191,11 @@ void Canvas::draw() {
   if (!impl_->list.VtxBuffer.empty()) impl_->uploadAndDraw();
 }
 
+void Canvas::record(std::vector<Ink>* ink) { impl_->ink = ink; }
+
 void Canvas::text(const Pixel& at, float size, const Color& color, const std::string& words) {
   Impl& my = *impl_;
+  if (!my.inHalo) keep(my.ink, {Ink::Kind::kText, {at}, color, size, words});
   const Face& face = my.face(size);
   my.list.PushTextureID(face.texture);
   my.list.AddText(face.font, face.font->FontSize,
@@ -194,10 +208,13 @@ void Canvas::textWithHalo(const Pixel& at, float size, const Color& color,
                           const std::string& words) {
   const float reach = std::max(1.0f, std::round(size / 14));
   const Color light(1, 1, 1, 0.45f * color.w());
+  impl_->inHalo = true;
   for (const float x : {-reach, 0.0f, reach})
     for (const float y : {-reach, 0.0f, reach})
       if (x != 0 || y != 0) text(at + Pixel(x, y), size, light, words);
+  impl_->inHalo = false;
   text(at, size, color, words);
+  if (impl_->ink != nullptr) impl_->ink->back().halo = true;
 }
 
 float Canvas::widthOf(const std::string& words, float size) {
@@ -221,6 +238,7 @@ float Canvas::runs(const Pixel& at, float size, const Color* color, const std::s
       halo ? textWithHalo(start, height, *color, run.words)
            : text(start, height, *color, run.words);
       if (run.slanted) impl_->slant(first, start.y());
+      if (impl_->ink != nullptr) impl_->ink->back().slanted = run.slanted;
     }
     x += widthOf(run.words, height);
     if (run.slanted) x += std::round(kSlantRoom * size);
@@ -241,7 +259,13 @@ void Canvas::markedTextUpward(const Pixel& at, float size, const Color& color,
                               const std::string& words) {
   const int first = impl_->list.VtxBuffer.Size;
   const Pixel corner(std::round(at.x()), std::round(at.y()));
+  const std::size_t firstInk = impl_->ink != nullptr ? impl_->ink->size() : 0;
   runs(corner, size, &color, words, false);
+  for (std::size_t i = firstInk; impl_->ink != nullptr && i < impl_->ink->size(); ++i) {
+    Pixel& p = (*impl_->ink)[i].points[0];
+    p = {corner.x() + (p.y() - corner.y()), corner.y() - (p.x() - corner.x())};
+    (*impl_->ink)[i].upward = true;
+  }
   for (int i = first; i < impl_->list.VtxBuffer.Size; ++i) {
     ImVec2& p = impl_->list.VtxBuffer[i].pos;
     p = {corner.x() + (p.y - corner.y()), corner.y() - (p.x - corner.x())};
@@ -250,55 +274,32 @@ void Canvas::markedTextUpward(const Pixel& at, float size, const Color& color,
 
 void Canvas::fill(const Pixel& from, const Pixel& to, const Color& color, float rounding) {
   impl_->list.AddRectFilled(vec(from), vec(to), pack(color), rounding);
+  keep(impl_->ink, {Ink::Kind::kArea, cornersOf(from, to), color});
 }
 
 void Canvas::outline(const Pixel& from, const Pixel& to, const Color& color, float thickness,
                      float rounding) {
   impl_->list.AddRect(vec(from), vec(to), pack(color), rounding, 0, thickness);
+  keep(impl_->ink, {Ink::Kind::kCurve, cornersOf(from, to), color, thickness});
+  if (impl_->ink != nullptr) impl_->ink->back().closed = true;
 }
 
 void Canvas::curve(const std::vector<Pixel>& points, const Color& color, float thickness) {
   if (points.size() < 2) return;
   const auto* const first = reinterpret_cast<const ImVec2*>(points.data());
   impl_->list.AddPolyline(first, static_cast<int>(points.size()), pack(color), 0, thickness);
-}
-
-// Dashes run on around the corners.
-void Canvas::dashedCurve(const std::vector<Pixel>& points, const Color& color, float thickness,
-                         float dash, float gap) {
-  std::vector<Pixel> piece;
-  float left = dash;
-  bool drawn = true;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    Pixel at = points[i];
-    float length = (points[i + 1] - at).norm();
-    if (drawn && piece.empty()) piece.push_back(at);
-    while (length > left) {
-      at += (points[i + 1] - at) * (left / length);
-      length -= left;
-      if (drawn) {
-        piece.push_back(at);
-        curve(piece, color, thickness);
-        piece.clear();
-      } else {
-        piece.push_back(at);
-      }
-      drawn = !drawn;
-      left = drawn ? dash : gap;
-    }
-    left -= length;
-    if (drawn) piece.push_back(points[i + 1]);
-  }
-  curve(piece, color, thickness);
+  keep(impl_->ink, {Ink::Kind::kCurve, points, color, thickness});
 }
 
 void Canvas::disc(const Pixel& centre, float radius, const Color& color) {
   impl_->list.AddCircleFilled(vec(centre), radius, pack(color), 24);
+  keep(impl_->ink, {Ink::Kind::kDisc, {centre}, color, radius});
 }
 
 void Canvas::convexArea(const std::vector<Pixel>& corners, const Color& color) {
   const auto* const first = reinterpret_cast<const ImVec2*>(corners.data());
   impl_->list.AddConvexPolyFilled(first, static_cast<int>(corners.size()), pack(color));
+  keep(impl_->ink, {Ink::Kind::kArea, corners, color});
 }
 
 }  // namespace render

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/ink.h"
 #include "render/picture.h"
 
 namespace render {
@@ -25,6 +26,9 @@ class Canvas {
 
   void begin(int width, int height);
   void draw();  // all since `begin`, into the framebuffer that is bound
+
+  // From now on what is drawn is also put there; null: no longer.
+  void record(std::vector<Ink>* ink);
 
   // Text sits on its baseline, which starts at `at`; `size` is the height of a line.
   void text(const Pixel& at, float size, const Color& color, const std::string& words);

@@ -121,4 +121,13 @@ Image PagePrinter::print(const Page& page) {
   return sheet;
 }
 
+std::vector<Ink> PagePrinter::inkOf(const Page& page) {
+  impl_->context.makeCurrent();
+  std::vector<Ink> ink;
+  impl_->canvas.record(&ink);
+  drawOver(page, impl_->canvas);
+  impl_->canvas.record(nullptr);
+  return ink;
+}
+
 }  // namespace render

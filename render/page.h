@@ -48,6 +48,9 @@ class PagePrinter {
   // a page without area.
   Image print(const Page& page);
 
+  // Plots and text of the page as they are drawn over its tiles.
+  std::vector<Ink> inkOf(const Page& page);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

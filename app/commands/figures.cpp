@@ -24,6 +24,7 @@ struct FigureOptions {
   std::vector<std::string> figures;
   std::string quality = "paper";
   int width = 0;
+  std::vector<std::string> formats;
   bool fresh = false;
 };
 
@@ -76,7 +77,7 @@ class FigureMaker {
         record_(makeFigureRecord(sheet_, wanted.asked, parseQuality(options.quality),
                                  plan_.page.width)) {
     drawing_ = {parseQuality(options.quality), options.common.threadCount(),
-                options.common.progressMode()};
+                options.common.progressMode(), options.formats};
   }
 
   // True when the folder holds it already, made from the same.
@@ -84,6 +85,12 @@ class FigureMaker {
     if (options_.fresh) return false;
     const std::optional<FigureRecord> earlier = readFigureRecord(file(".json"));
     if (!earlier || earlier->inputs != record_.inputs) return false;
+    for (const std::string& format : drawing_.formats) {
+      const Json file = sheet_.name + "." + format;
+      if (std::find(earlier->files.begin(), earlier->files.end(), file) == earlier->files.end()) {
+        return false;
+      }
+    }
     record_ = *earlier;
     return true;
   }
@@ -113,6 +120,9 @@ class FigureMaker {
   bool draw(FigureShots& shots, Stopwatch& watch) {
     if (!drawFigure(plan_, shots, drawing_, file(".png"))) return false;
     record_.files.push_back(sheet_.name + ".png");
+    for (const std::string& format : drawing_.formats) {
+      record_.files.push_back(sheet_.name + "." + format);
+    }
     record_.seconds["draw"] = watch.lap();
     writeFile(file(".csv"), dataTable(sheet_, shots.series));
     record_.files.push_back(sheet_.name + ".csv");
@@ -198,6 +208,14 @@ void addFigures(CLI::App& line, Action& action) {
   command->add_option("--width", options->width, "Width in pixels [the sheet's, 2050: 174 mm]")
       ->check(CLI::Range(kLeast, kMost))
       ->type_name("PIXELS");
+  command
+      ->add_option("--format", options->formats,
+                   "Also as vectors, 174 mm wide, with the pictures inside: pdf, svg (a list with "
+                   "commas)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"pdf", "svg"}))
+      ->type_name("pdf|svg");
   command->add_flag("--fresh", options->fresh, "Make them again, changed or not");
   addOutput(*command, options->common, "out");
   command->callback([options, &action] { action = [options] { return figures(*options); }; });

@@ -4,6 +4,8 @@
 #include <map>
 
 #include "app/base/interrupt.h"
+#include "app/base/output_file.h"
+#include "app/figure/vector_page.h"
 #include "app/run/frame_folder.h"
 #include "app/run/pipeline.h"
 #include "app/run/whole_frames.h"
@@ -52,6 +54,9 @@ bool drawTiles(const FigurePlan& plan, const FigureShots& shots, const FigureDra
   progress.finish();
   return !interrupted();
 }
+
+// A sheet's own width is meant for 2050 pixels over the 174 mm of a page's two columns.
+double widthInPrint(const scenes::FigureSheet& sheet) { return sheet.width * 174.0 / 2050; }
 
 void addStamp(const std::string& words, const scenes::FigureLayout& layout, const Rectangle& cell,
               render::Page& page) {
@@ -153,7 +158,12 @@ bool drawFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDr
   std::vector<render::Image> images;
   if (!drawTiles(plan, shots, drawing, images)) return false;
   render::PagePrinter printer;
-  render::writePng(printer.print(composeFigure(plan, shots, std::move(images))), file);
+  const render::Page page = composeFigure(plan, shots, std::move(images));
+  render::writePng(printer.print(page), file);
+  for (const std::string& format : drawing.formats) {
+    const std::filesystem::path other = std::filesystem::path(file).replace_extension(format);
+    writeFile(other, vectorPage(page, printer.inkOf(page), widthInPrint(plan.sheet), format));
+  }
   return true;
 }
 

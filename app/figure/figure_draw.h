@@ -12,9 +12,11 @@ struct FigureDrawing {
   render::Quality quality = render::Quality::kPaper;
   int threads = 1;
   ProgressMode progress = ProgressMode::kNone;
+  std::vector<std::string> formats = {};  // beside the PNG: "pdf", "svg"
 };
 
-// False where a user interrupted it; then nothing is written.
+// Into `file`, and under its name with other endings. False where a user interrupted it; then
+// nothing is written.
 bool drawFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
                 const std::filesystem::path& file);
 

@@ -104,6 +104,7 @@ const std::map<std::string, std::vector<std::string>> kPackages = {
     {"tiny_gltf", {"app/take/gltf"}},
     {"toml++/", {"scenes/read/toml.cpp"}},
     {"muParser", {"scenes/read/expression.cpp"}},
+    {"cairo", {"app/figure/vector_page.cpp"}},
     {"CLI/", {"app/"}},
     {"nlohmann/", {"app/"}},
     {"bt", {"app/peers/bullet"}},

@@ -50,6 +50,27 @@ TEST_F(Figures, MakesPictureDataRecordAndPage) {
   }
 }
 
+TEST_F(Figures, AreVectorsWhereThatIsAskedFor) {
+  ASSERT_EQ(run(kMake).code, 0);
+  ASSERT_EQ(run(kMake + std::string("--format pdf,svg")).code, 0) << "later, too";
+  const std::string pdf = readBytes(folder / "out" / "fall.pdf");
+  EXPECT_TRUE(pdf.starts_with("%PDF"));
+  EXPECT_NE(pdf.find("/MediaBox [ 0 0 493.2"), std::string::npos) << "174 mm";
+  EXPECT_NE(pdf.find("DejaVuSans"), std::string::npos);
+  EXPECT_NE(pdf.find("/FontFile2"), std::string::npos);
+  EXPECT_NE(pdf.find("/Subtype /Image"), std::string::npos);
+  EXPECT_EQ(pdf.find("CreationDate"), std::string::npos);
+  const std::string svg = readBytes(folder / "out" / "fall.svg");
+  EXPECT_NE(svg.find("<image"), std::string::npos);
+  EXPECT_NE(svg.find("<path"), std::string::npos);
+  ASSERT_EQ(run(kMake + std::string("--format pdf,svg --fresh --threads 2")).code, 0);
+  EXPECT_EQ(pdf, readBytes(folder / "out" / "fall.pdf"));
+  EXPECT_EQ(svg, readBytes(folder / "out" / "fall.svg"));
+  const Outcome wrong = run(kMake + std::string("--format eps"));
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.errors.find("eps"), std::string::npos) << wrong.errors;
+}
+
 TEST_F(Figures, WhatHasNotChangedIsNotMadeAgain) {
   ASSERT_EQ(run(kMake).code, 0);
   writeText(folder / "out" / "fall.png", "kept as it is");
