@@ -26,8 +26,8 @@ std::size_t levelFor(float radiusInPixels) {
 
 }  // namespace
 
-Bodies::Bodies() {
-  colorProgram_ = makeProgram(kBodyVertex, kBodyFragment);
+Bodies::Bodies(const std::string& defines) {
+  colorProgram_ = makeProgram(kBodyVertex, kBodyFragment, defines);
   casterProgram_ = makeProgram(kBodyVertex, kCasterFragment, "#define CASTER\n");
   instanceBuffer_ = makeBuffer();
   casterBuffer_ = makeBuffer();

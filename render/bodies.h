@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace render {
 
 class Bodies {
  public:
-  Bodies();
+  explicit Bodies(const std::string& defines);  // of the program that colours them
 
   // Sorts and uploads the instances: opaque ones by geometry and front to back, then translucent
   // ones back to front. Ties keep the order of the picture.

@@ -5,7 +5,8 @@
 
 namespace render {
 
-Floor::Floor() : program_(makeProgram(kFloorVertex, kFloorFragment)), array_(makeVertexArray()) {}
+Floor::Floor(const std::string& defines)
+    : program_(makeProgram(kFloorVertex, kFloorFragment, defines)), array_(makeVertexArray()) {}
 
 void Floor::draw() const {
   glUseProgram(program_);

@@ -2,13 +2,15 @@
 // Its lines smooth themselves, so it is drawn without multisampling, before the bodies.
 #pragma once
 
+#include <string>
+
 #include "render/gl.h"
 
 namespace render {
 
 class Floor {
  public:
-  Floor();
+  explicit Floor(const std::string& defines);  // of the program that colours them
   void draw() const;  // into a framebuffer that is cleared to the background
 
  private:

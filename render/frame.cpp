@@ -50,7 +50,9 @@ void checkCamera(const Picture& picture) {
   requireFinite(camera.eye.allFinite() && camera.target.allFinite() && camera.up.allFinite(),
                 "the camera");
   requireFinite(picture.focusCenter.allFinite() && std::isfinite(picture.focusRadius), "the focus");
-  requireFinite(picture.light.direction.allFinite(), "the light");
+  requireFinite(picture.light.direction.allFinite() && picture.light.color.allFinite() &&
+                    std::isfinite(picture.light.softness),
+                "the light");
   requireFinite(std::isfinite(picture.ground.height) && std::isfinite(picture.ground.spacing),
                 "the ground");
   if (camera.eye == camera.target) throw std::invalid_argument("camera: eye and target coincide");
@@ -125,29 +127,47 @@ void setProjection(Frame& frame, const Picture& picture) {
   frame.block.toClip = projection * view;
 }
 
-// Orthographic, along the light, around the sphere in focus. Casters in front of the sphere are
-// clamped to its near side.
+// A light's view of the sphere in focus, orthographic: along `along`, whose sides are orthonormal.
+struct LightView {
+  Vec3f along, side, up;
+  float radius = 0;
+
+  LightView(const Vec3f& direction, const Picture& picture)
+      : along(direction.normalized()),
+        side(normalTo(along, Vec3f::UnitY())),
+        up(side.cross(along)),
+        radius(picture.focusRadius * 1.05f) {}
+
+  // To [0,1] in each direction. Casters in front of the sphere are clamped to its near side.
+  Eigen::Matrix4f matrix(const Vec3f& center) const {
+    Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
+    m.block<1, 3>(0, 0) = side.transpose() / (2 * radius);
+    m.block<1, 3>(1, 0) = up.transpose() / (2 * radius);
+    m.block<1, 3>(2, 0) = along.transpose() / (2 * radius);
+    m.block<3, 1>(0, 3) = Vec3f::Constant(0.5f) - m.block<3, 3>(0, 0) * center;
+    return m;
+  }
+};
+
 void setShadow(Frame& frame, const Picture& picture, const Detail& detail) {
-  const Vec3f along = picture.light.direction.normalized();
-  const Vec3f side = normalTo(along, Vec3f::UnitY()), up = side.cross(along);
-  const float radius = picture.focusRadius * 1.05f;
-  Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
-  m.block<1, 3>(0, 0) = side.transpose() / (2 * radius);
-  m.block<1, 3>(1, 0) = up.transpose() / (2 * radius);
-  m.block<1, 3>(2, 0) = along.transpose() / (2 * radius);
-  m.block<3, 1>(0, 3) = Vec3f::Constant(0.5f) - m.block<3, 3>(0, 0) * picture.focusCenter;
+  const LightView light(picture.light.direction, picture);
+  const float radius = light.radius;
   const float texel = 2 * radius / static_cast<float>(detail.shadowSize);
-  frame.block.toShadow = m;
-  frame.block.towardLight.head<3>() = -along;
+  frame.block.toShadow = light.matrix(picture.focusCenter);
+  frame.block.towardLight.head<3>() = -light.along;
   frame.block.towardLight.w() = 0;
   frame.block.shadow << (picture.light.shadows ? 1.0f : 0.0f), 1.2f * texel,
       1.4f / static_cast<float>(detail.shadowSize), static_cast<float>(detail.shadowTaps);
   // y = height on the ray of (u, v): the inverse of m has the orthogonal rows of m as columns.
-  const Vec3f perMap = 2 * radius * Vec3f(side.y(), up.y(), along.y());
+  const Vec3f perMap = 2 * radius * Vec3f(light.side.y(), light.up.y(), light.along.y());
   const float middle = picture.focusCenter.y() - 0.5f * perMap.sum();
   const float steep = std::min(perMap.z(), -1e-3f * radius);
+  constexpr float kSoftening = 3;  // of the ground's masks, for a light of the usual softness
   frame.block.shadowOfGround << -perMap.x() / steep, -perMap.y() / steep,
-      (picture.ground.height - middle) / steep, 3.0f;
+      (picture.ground.height - middle) / steep,
+      kSoftening * picture.light.softness / Light().softness;
+  frame.block.keyColor << 0.61f * picture.light.color.x(), 0.60f * picture.light.color.y(),
+      0.58f * picture.light.color.z(), 0;
 }
 
 void setGround(Frame& frame, const Picture& picture) {
@@ -168,13 +188,13 @@ void setGround(Frame& frame, const Picture& picture) {
 Detail detailOf(Quality quality) {
   switch (quality) {
     case Quality::kDraft:
-      return {1, 1, 1024, 1};
+      return {1, 1024, 1, 0};
     case Quality::kPaper:
-      return {4, 2, 2048, 3};
+      return {1, 1024, 1, 16};
     case Quality::kStandard:
       break;
   }
-  return {4, 1, 1024, 2};
+  return {4, 1024, 2, 0};
 }
 
 float radiusOf(const Instance& instance) {
@@ -203,8 +223,8 @@ Frame frameOf(const Picture& picture, const RendererOptions& options, const Deta
   checkSurfaces(picture);
   Frame frame;
   frame.balls = ballsOf(picture);
-  frame.width = options.width * detail.supersample;
-  frame.height = options.height * detail.supersample;
+  frame.width = options.width;
+  frame.height = options.height;
   frame.scale = static_cast<float>(frame.height) / 720.0f;
   setCamera(frame, picture);
   setProjection(frame, picture);
@@ -214,6 +234,28 @@ Frame frameOf(const Picture& picture, const RendererOptions& options, const Deta
   frame.block.background = picture.background;
   frame.block.pixels << static_cast<float>(frame.width), static_cast<float>(frame.height),
       std::max(0.9f * frame.scale, 0.6f), picture.focusRadius;
+  return frame;
+}
+
+Frame exposed(Frame frame, const Picture& picture, const Detail& detail, const Exposure& exposure) {
+  FrameBlock& block = frame.block;
+  const Eigen::RowVector4f depth = block.toClip.row(3);
+  block.toClip.row(0) += 2 * exposure.aside.x() / static_cast<float>(frame.width) * depth;
+  block.toClip.row(1) += 2 * exposure.aside.y() / static_cast<float>(frame.height) * depth;
+  const LightView middle(picture.light.direction, picture);
+  const Eigen::Vector2f off = picture.light.softness * exposure.onLight;
+  Picture lit;
+  lit.light = picture.light;
+  lit.light.direction = middle.along + off.x() * middle.side + off.y() * middle.up;
+  lit.ground = picture.ground;
+  lit.focusCenter = picture.focusCenter;
+  lit.focusRadius = picture.focusRadius;
+  setShadow(frame, lit, detail);
+  block.toLights[0] = block.toShadow;
+  for (std::size_t k = 0; k < kSkies; ++k) {
+    block.towardSky[k] << exposure.sky[k], 0;
+    block.toLights[1 + k] = LightView(-exposure.sky[k], picture).matrix(picture.focusCenter);
+  }
   return frame;
 }
 

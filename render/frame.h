@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <vector>
 
+#include "render/exposure.h"
 #include "render/picture.h"
 #include "render/renderer.h"
 
@@ -11,9 +14,9 @@ namespace render {
 // What a quality stands for.
 struct Detail {
   int samples = 4;        // of multisampling; 1: none
-  int supersample = 1;    // the scene is drawn this many times wider and higher
   int shadowSize = 1024;  // texels of the shadow map across the sphere in focus
   int shadowTaps = 2;     // per side of the square of taps on a body
+  int exposures = 0;      // whose mean the picture is; 0: it is drawn once
 };
 Detail detailOf(Quality quality);
 
@@ -31,6 +34,10 @@ struct FrameBlock {
   Eigen::Vector4f shadowOfGround;  // depth of the ground in the map: x u + y v + z; w: softening
   Eigen::Vector4f
       pixels;  // width, height of the scene in pixels, edge width in px, radius in focus
+  Eigen::Vector4f keyColor;  // linear
+  // Of an exposure: world -> tile of the light maps, of the key light and of points of the sky.
+  std::array<Eigen::Matrix4f, 1 + kSkies> toLights;
+  std::array<Eigen::Vector4f, kSkies> towardSky;
 };
 
 struct Ball {
@@ -40,7 +47,7 @@ struct Ball {
 
 struct Frame {
   FrameBlock block;
-  int width = 0, height = 0;              // of the scene as drawn, supersampled
+  int width = 0, height = 0;
   Eigen::Vector3f eye, right, up, ahead;  // orthonormal; `ahead` looks at the target
   float nearest = 0;                      // distance of the near plane
   float pixelsPerMetre = 0;               // of something one metre away
@@ -54,6 +61,9 @@ struct Frame {
 // Throws std::invalid_argument when the picture has a number that is not finite, an instance
 // without its mesh, a surface whose lists do not fit, or a camera that looks nowhere.
 Frame frameOf(const Picture& picture, const RendererOptions& options, const Detail& detail);
+
+// The frame of one exposure of that picture.
+Frame exposed(Frame frame, const Picture& picture, const Detail& detail, const Exposure& exposure);
 
 // A ball around an instance: radius about its position.
 float radiusOf(const Instance& instance);

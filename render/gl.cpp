@@ -37,6 +37,7 @@ void bindSharedNames(GLuint program) {
   setSampler("sharpMask", kSharpUnit);
   setSampler("wideMask", kWideUnit);
   setSampler("source", kSourceUnit);
+  setSampler("lights", kLightsUnit);
 }
 
 void setFilter(GLenum filter) {

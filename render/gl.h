@@ -26,6 +26,14 @@ void fillBuffer(GLenum target, GLuint buffer, const std::vector<T>& data, GLenum
 // Attribute `index` of the array that is bound: `size` floats, from the buffer that is bound.
 void setAttribute(GLuint index, int size, std::size_t stride, std::size_t offset);
 
+// The block that all shaders share, from now on.
+template <typename T>
+void fillUniforms(GLuint buffer, const T& block) {
+  glBindBuffer(GL_UNIFORM_BUFFER, buffer);
+  glBufferData(GL_UNIFORM_BUFFER, sizeof block, &block, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, buffer);
+}
+
 // sRGB to linear, alpha as it is.
 Color linearColor(const Color& color);
 
@@ -47,7 +55,13 @@ void uncut();
 void drawWholeViewport();
 
 // Texture units, the same in every program.
-enum TextureUnit { kShadowUnit = 0, kSharpUnit = 1, kWideUnit = 2, kSourceUnit = 3 };
+enum TextureUnit {
+  kShadowUnit = 0,
+  kSharpUnit = 1,
+  kWideUnit = 2,
+  kSourceUnit = 3,
+  kLightsUnit = 4
+};
 void bindTexture(TextureUnit unit, GLenum target, GLuint texture);
 
 }  // namespace render

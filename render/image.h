@@ -1,4 +1,4 @@
-// An 8-bit RGB image in memory, rows from the top.
+// An 8-bit image in memory, rows from the top.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@ namespace render {
 
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;  // 3 * width * height
+  std::vector<std::uint8_t> rgb;      // 3 * width * height
+  std::vector<std::uint8_t> alpha{};  // width * height, or empty: opaque; not multiplied into rgb
   bool operator==(const Image&) const = default;
 };
 

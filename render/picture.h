@@ -62,6 +62,8 @@ struct Ground {  // a plane with a grid that gives scale
 struct Light {
   Vec3f direction{-0.45f, -1.0f, -0.35f};  // the way light travels
   bool shadows = true;
+  Vec3f color = Vec3f::Ones();  // linear, times a white that is a little warm
+  float softness = 0.05f;       // tangent of half the angle that the light is seen under
 };
 
 // Overlay geometry in the world, drawn with constant width in pixels (at 720 lines; scales with the
@@ -123,9 +125,9 @@ struct Picture {
   std::vector<Dot> dots;
   std::vector<Label> labels;
   Hud hud;
-  std::string caption;  // one line at the lower left, empty: none
-  Color background{1, 1, 1, 1};
-  Vec3f focusCenter{0, 1, 0};  // the sphere that shadows must cover
+  std::string caption;           // one line at the lower left, empty: none
+  Color background{1, 1, 1, 1};  // alpha 0: transparent, and the ground is only its shadows
+  Vec3f focusCenter{0, 1, 0};    // the sphere that shadows must cover
   float focusRadius = 5;
 };
 

@@ -60,7 +60,7 @@ class Hasher {
   }
   void add(const Camera& v) { addAll(v.eye, v.target, v.up, v.fieldOfViewDegrees); }
   void add(const Ground& v) { addAll(v.visible, v.height, v.spacing, v.color); }
-  void add(const Light& v) { addAll(v.direction, v.shadows); }
+  void add(const Light& v) { addAll(v.direction, v.shadows, v.color, v.softness); }
   void add(const Line& v) { addAll(v.from, v.to, v.color, v.width, v.arrow, v.onTop); }
   void add(const Dot& v) { addAll(v.at, v.color, v.diameter); }
   void add(const Label& v) { addAll(v.at, v.text, v.offset, v.color, v.size, v.anchor); }

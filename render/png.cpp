@@ -96,21 +96,35 @@ void writeAndRename(const unsigned char* data, std::size_t size, const std::stri
   unfinished.finish();
 }
 
+std::vector<std::uint8_t> interleaved(const Image& image) {
+  std::vector<std::uint8_t> rgba;
+  rgba.reserve(4 * image.alpha.size());
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    rgba.insert(rgba.end(),
+                {image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2], image.alpha[i]});
+  }
+  return rgba;
+}
+
 }  // namespace
 
 void writePng(const Image& image, const std::filesystem::path& file, const PngNotes& notes) {
   const auto size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  if (image.width < 1 || image.height < 1 || image.rgb.size() != 3 * size)
+  const bool sized =
+      image.rgb.size() == 3 * size && (image.alpha.empty() || image.alpha.size() == size);
+  if (image.width < 1 || image.height < 1 || !sized)
     throw std::invalid_argument(
         fmt::format("image: {} bytes for {} x {}", image.rgb.size(), image.width, image.height));
   const std::string chunks = noteChunks(notes, image.width);
   // Set once: stb reads it as a global, and it is the same for every thread.
   static const bool forced = (stbi_write_force_png_filter = kPaethFilter, true);
   (void)forced;
+  const std::vector<std::uint8_t> rgba = image.alpha.empty() ? image.alpha : interleaved(image);
+  const int channels = rgba.empty() ? 3 : 4;
   int length = 0;
   const std::unique_ptr<unsigned char, void (*)(void*)> bytes(
-      stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3,
-                            &length),
+      stbi_write_png_to_mem(rgba.empty() ? image.rgb.data() : rgba.data(), channels * image.width,
+                            image.width, image.height, channels, &length),
       std::free);
   if (!bytes) fail(ENOMEM, "cannot compress", file);
   writeAndRename(bytes.get(), static_cast<std::size_t>(length), chunks, file);
@@ -122,16 +136,26 @@ Image readPng(const std::filesystem::path& file) {
   if (!stream) fail(errno != 0 ? errno : ENOENT, "cannot open", file);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
   Image image;
+  int channels = 0;
+  const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const auto length = static_cast<int>(bytes.size());
+  const bool known =
+      stbi_info_from_memory(data, length, &image.width, &image.height, &channels) != 0;
+  const int wanted = known && channels % 2 == 0 ? 4 : 3;  // grey and colour, with alpha
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
-                            static_cast<int>(bytes.size()), &image.width, &image.height, nullptr,
-                            3),
-      std::free);
+      stbi_load_from_memory(data, length, &image.width, &image.height, nullptr, wanted), std::free);
   if (!pixels)
     throw std::runtime_error(
         fmt::format("not a readable PNG: {} ({})", file.string(), stbi_failure_reason()));
   const auto size = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  image.rgb.assign(pixels.get(), pixels.get() + 3 * size);
+  if (wanted == 3) {
+    image.rgb.assign(pixels.get(), pixels.get() + 3 * size);
+    return image;
+  }
+  for (const stbi_uc* at = pixels.get(); at != pixels.get() + 4 * size; at += 4) {
+    image.rgb.insert(image.rgb.end(), at, at + 3);
+    image.alpha.push_back(at[3]);
+  }
   return image;
 }
 

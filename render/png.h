@@ -21,8 +21,8 @@ struct PngNotes {
 // and its bytes disagree, or a keyword is none.
 void writePng(const Image& image, const std::filesystem::path& file, const PngNotes& notes = {});
 
-// Any PNG, as 8-bit RGB; alpha is dropped. Throws std::system_error when the file cannot be opened
-// and std::runtime_error when it is not a PNG.
+// Any PNG, as 8-bit RGB, and alpha where it has some. Throws std::system_error when the file cannot
+// be opened and std::runtime_error when it is not a PNG.
 Image readPng(const std::filesystem::path& file);
 
 }  // namespace render

@@ -1,8 +1,10 @@
-// The order of passes: shadow, ground, bodies, overlay, and the way back to memory.
+// The order of passes: shadow, ground, bodies, the mean of several such pictures where that is
+// asked for, overlay, and the way back to memory.
 #include "render/renderer.h"
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "render/bodies.h"
@@ -11,6 +13,8 @@
 #include "render/context.h"
 #include "render/floor.h"
 #include "render/frame.h"
+#include "render/light_maps.h"
+#include "render/mean.h"
 #include "render/overlay.h"
 #include "render/shaders.h"
 #include "render/shadow.h"
@@ -19,18 +23,7 @@
 
 namespace render {
 
-// An image without multisampling that passes are collected in.
-struct Sheet {
-  GLuint framebuffer = 0;
-  int width = 0, height = 0;
-};
-
 namespace {
-
-Sheet makeSheet(int width, int height) {
-  const GLuint texture = makeTexture(GL_RGBA8, width, height, GL_LINEAR);
-  return {makeFramebuffer(texture, "the picture"), width, height};
-}
 
 const RendererOptions& checked(const RendererOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > 8192 || options.height > 8192)
@@ -40,48 +33,59 @@ const RendererOptions& checked(const RendererOptions& options) {
   return options;
 }
 
+std::string definesOf(const Detail& detail) {
+  return detail.exposures > 0 ? "#define EXPOSED\n" : "";
+}
+
 }  // namespace
 
 struct Renderer::Impl {
   explicit Impl(const RendererOptions& wanted);
   ~Impl() = default;
 
-  void upload(const Frame& frame) const;
+  void drawScene(const Picture& picture, const Frame& frame);
   void drawGround(const Frame& frame) const;
   void drawBodies(const Bounds& bounds);
-  void finishScene() const;
   void drawShadows(const Frame& frame);
+  void drawMean(std::span<const Picture> moments, const Frame& frame);
   void drawLetters(const Picture& drawn, const Frame& frame);
   void readBack();
+  void putBack() const;  // what was read back, or made of it
+  void fillImage(bool opaque);
 
   Context context;  // first: all that follows lives in it
   RendererOptions options;
   Detail detail;
   Bodies bodies;
   Surfaces surfaces;
-  std::optional<Shadow> shadow;  // made for the first picture that asks for it, as the canvas
+  std::optional<Shadow> shadow;  // made for the first picture that asks for it, as the next two
+  std::optional<LightMaps> lights;
   Floor floor;
   Strokes strokes;
   std::optional<Canvas> canvas;
   DrawCounts counts;
   GLuint frameBuffer = 0, resolveProgram = 0, emptyArray = 0;
-  GLuint bodyTexture = 0, bodyFramebuffer = 0;  // multisampled, or the scene's own when draft
-  Sheet scene, picture;                         // the same unless supersampled
-  std::vector<std::uint8_t> rgba;
+  GLuint bodyTexture = 0, bodyFramebuffer = 0;  // multisampled, or the picture's own
+  GLuint pictureTexture = 0, pictureFramebuffer = 0;
+  Mean mean;
+  std::vector<std::uint8_t> rgba;  // rows from the bottom, colour premultiplied
   Image image;
 };
 
 Renderer::Impl::Impl(const RendererOptions& wanted)
-    : options(checked(wanted)), detail(detailOf(wanted.quality)) {
+    : options(checked(wanted)),
+      detail(detailOf(wanted.quality)),
+      bodies(definesOf(detail)),
+      surfaces(definesOf(detail)),
+      floor(definesOf(detail)) {
   if (!wanted.fontFile.empty()) canvas.emplace(wanted.fontFile);
   frameBuffer = makeBuffer();
   resolveProgram = makeProgram(kViewportVertex, kResolveFragment);
   emptyArray = makeVertexArray();
-  const int width = options.width * detail.supersample,
-            height = options.height * detail.supersample;
-  scene = makeSheet(width, height);
-  picture = detail.supersample > 1 ? makeSheet(options.width, options.height) : scene;
-  bodyFramebuffer = scene.framebuffer;
+  const int width = options.width, height = options.height;
+  pictureTexture = makeTexture(GL_RGBA8, width, height, GL_LINEAR);
+  pictureFramebuffer = makeFramebuffer(pictureTexture, "the picture");
+  bodyFramebuffer = pictureFramebuffer;
   if (detail.samples > 1) {
     glGenFramebuffers(1, &bodyFramebuffer);
     bodyTexture = makeMultisampleTexture(GL_RGBA8, detail.samples, width, height);
@@ -103,17 +107,11 @@ Renderer::Impl::Impl(const RendererOptions& wanted)
   rgba.resize(image.rgb.size() / 3 * 4);
 }
 
-void Renderer::Impl::upload(const Frame& frame) const {
-  glBindBuffer(GL_UNIFORM_BUFFER, frameBuffer);
-  glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameBlock), &frame.block, GL_STREAM_DRAW);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBuffer);
-}
-
 void Renderer::Impl::drawGround(const Frame& frame) const {
   const Color& back = frame.block.background;
-  glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer);
-  glViewport(0, 0, scene.width, scene.height);
-  glClearColor(back.x(), back.y(), back.z(), 1);
+  glBindFramebuffer(GL_FRAMEBUFFER, pictureFramebuffer);
+  glViewport(0, 0, options.width, options.height);
+  glClearColor(back.x() * back.w(), back.y() * back.w(), back.z() * back.w(), back.w());
   glClear(GL_COLOR_BUFFER_BIT);
   if (frame.groundDrawn) floor.draw();
 }
@@ -122,7 +120,7 @@ void Renderer::Impl::drawGround(const Frame& frame) const {
 void Renderer::Impl::drawBodies(const Bounds& bounds) {
   if (bounds.empty()) return;
   const bool smooth = detail.samples > 1;
-  cutTo(bounds, scene.width, scene.height, 1);
+  cutTo(bounds, options.width, options.height, 1);
   glBindFramebuffer(GL_FRAMEBUFFER, bodyFramebuffer);
   glClearColor(0, 0, 0, 0);
   glClear(GL_DEPTH_BUFFER_BIT | (smooth ? GL_COLOR_BUFFER_BIT : 0u));
@@ -135,7 +133,7 @@ void Renderer::Impl::drawBodies(const Bounds& bounds) {
   strokes.drawHidden();
   glDisable(GL_DEPTH_TEST);
   if (smooth) {
-    glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, pictureFramebuffer);
     glUseProgram(resolveProgram);
     glBindVertexArray(emptyArray);
     bindTexture(kSourceUnit, GL_TEXTURE_2D_MULTISAMPLE, bodyTexture);
@@ -146,42 +144,84 @@ void Renderer::Impl::drawBodies(const Bounds& bounds) {
   uncut();
 }
 
-void Renderer::Impl::finishScene() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, scene.framebuffer);
-  strokes.drawOnTop();
-  if (detail.supersample > 1) {  // a linear fetch between four pixels is their mean
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture.framebuffer);
-    glBlitFramebuffer(0, 0, scene.width, scene.height, 0, 0, picture.width, picture.height,
-                      GL_COLOR_BUFFER_BIT, GL_LINEAR);
+void Renderer::Impl::drawShadows(const Frame& frame) {
+  if (detail.exposures > 0) {
+    if (!lights) lights.emplace(detail.shadowSize);
+    lights->draw(bodies, surfaces, frame, frameBuffer, counts);
+  } else {
+    if (!shadow) shadow.emplace(detail.shadowSize);
+    shadow->draw(bodies, surfaces, frame, counts);
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffer);
-  glViewport(0, 0, picture.width, picture.height);
 }
 
-void Renderer::Impl::drawShadows(const Frame& frame) {
-  if (!shadow) shadow.emplace(detail.shadowSize);
-  shadow->draw(bodies, surfaces, frame, counts);
+// All but letters, into the picture's framebuffer.
+void Renderer::Impl::drawScene(const Picture& picture, const Frame& frame) {
+  fillUniforms(frameBuffer, frame.block);
+  bodies.arrange(picture, frame);
+  surfaces.arrange(picture, frame);
+  strokes.arrange(picture, frame);
+  if (picture.light.shadows) drawShadows(frame);
+  drawGround(frame);
+  drawBodies(screenBoundsOf(picture, frame));
+  glBindFramebuffer(GL_FRAMEBUFFER, pictureFramebuffer);
+  strokes.drawOnTop();
+}
+
+// As many pictures as quality and moments ask for, each moment equally often. Which moment goes
+// with which point of the light jumps about, or a shadow's edge would tell the time.
+void Renderer::Impl::drawMean(std::span<const Picture> moments, const Frame& first) {
+  const auto count = static_cast<int>(moments.size());
+  const int rounds = std::max(1, (detail.exposures + count - 1) / count);
+  const std::vector<Exposure> exposures = spreadExposures(rounds * count);
+  mean.begin(first.block.background.w() >= 1);
+  for (int i = 0; i < rounds * count; ++i) {
+    const int shuffled = static_cast<int>(static_cast<std::int64_t>(i) * 7919 % (rounds * count));
+    const Picture& picture = moments[static_cast<std::size_t>(shuffled / rounds)];
+    const Frame frame = frameOf(picture, options, detail);
+    drawScene(picture, detail.exposures == 0 ? frame
+                                             : exposed(frame, picture, detail,
+                                                       exposures[static_cast<std::size_t>(i)]));
+    readBack();
+    mean.add(rgba);
+  }
+  mean.take(rgba);
 }
 
 void Renderer::Impl::drawLetters(const Picture& drawn, const Frame& frame) {
   if (!canvas) canvas.emplace(shippedFont());
-  drawOverlay(*canvas, drawn, frame, picture.width, picture.height);
+  glBindFramebuffer(GL_FRAMEBUFFER, pictureFramebuffer);
+  glViewport(0, 0, options.width, options.height);
+  drawOverlay(*canvas, drawn, frame, options.width, options.height);
   ++counts.overlays;
 }
 
-// Rows from the top, without alpha.
 void Renderer::Impl::readBack() {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture.framebuffer);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, pictureFramebuffer);
   glReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+}
+
+void Renderer::Impl::putBack() const {
+  bindTexture(kSourceUnit, GL_TEXTURE_2D, pictureTexture);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                  rgba.data());
+}
+
+// Rows from the top; of an opaque picture without alpha.
+void Renderer::Impl::fillImage(bool opaque) {
   const auto width = static_cast<std::size_t>(options.width);
   const auto height = static_cast<std::size_t>(options.height);
+  image.alpha.resize(opaque ? 0 : width * height);
   std::uint8_t* to = image.rgb.data();
   for (std::size_t row = 0; row < height; ++row) {
     const std::uint8_t* from = rgba.data() + 4 * width * (height - 1 - row);
     for (std::size_t i = 0; i < width; ++i, to += 3, from += 4) {
-      to[0] = from[0];
-      to[1] = from[1];
-      to[2] = from[2];
+      const unsigned a = opaque ? 255 : from[3];
+      for (int c = 0; c < 3; ++c) {
+        to[c] = a == 255 ? from[c]
+                         : static_cast<std::uint8_t>(
+                               a == 0 ? 0 : std::min(255u, (255u * from[c] + a / 2) / a));
+      }
+      if (!opaque) image.alpha[row * width + i] = static_cast<std::uint8_t>(a);
     }
   }
 }
@@ -190,20 +230,28 @@ Renderer::Renderer(const RendererOptions& options) : impl_(std::make_unique<Impl
 
 Renderer::~Renderer() = default;
 
-const Image& Renderer::draw(const Picture& picture) {
+const Image& Renderer::draw(const Picture& picture) { return draw(std::span(&picture, 1)); }
+
+const Image& Renderer::draw(std::span<const Picture> moments) {
+  if (moments.empty()) throw std::invalid_argument("renderer: no picture");
   Impl& my = *impl_;
+  const Picture& picture = moments.front();
   const Frame frame = frameOf(picture, my.options, my.detail);
+  const bool once = moments.size() == 1 && my.detail.exposures == 0;
   my.context.makeCurrent();
-  my.upload(frame);
-  my.bodies.arrange(picture, frame);
-  my.surfaces.arrange(picture, frame);
-  my.strokes.arrange(picture, frame);
-  if (picture.light.shadows) my.drawShadows(frame);
-  my.drawGround(frame);
-  my.drawBodies(screenBoundsOf(picture, frame));
-  my.finishScene();
-  if (hasOverlay(picture)) my.drawLetters(picture, frame);
-  my.readBack();
+  if (once) {
+    my.drawScene(picture, frame);
+  } else {
+    my.drawMean(moments, frame);
+  }
+  if (hasOverlay(picture)) {
+    if (!once) my.putBack();
+    my.drawLetters(picture, frame);
+    my.readBack();
+  } else if (once) {
+    my.readBack();
+  }
+  my.fillImage(picture.background.w() >= 1);
   ++my.counts.pictures;
   my.counts.strokes += picture.lines.empty() && picture.dots.empty() ? 0 : 1;
   return my.image;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "render/image.h"
@@ -38,6 +39,9 @@ class Renderer {
 
   // The same Picture gives the same bytes in every Renderer of the same options.
   const Image& draw(const Picture& picture);
+  // Of moments evenly spread over the time that a shutter is open, what moved is blurred; letters
+  // are those of the first.
+  const Image& draw(std::span<const Picture> moments);
 
   struct Info {
     std::string vendor, renderer, version;

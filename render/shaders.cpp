@@ -8,8 +8,37 @@ namespace render {
   "layout(std140) uniform Frame {\n"                                        \
   "  mat4 toClip, toShadow;\n"                                              \
   "  vec4 eye, towardLight, ground, groundFade, groundColor, background;\n" \
-  "  vec4 shadow, shadowOfGround, pixels;\n"                                \
+  "  vec4 shadow, shadowOfGround, pixels, keyColor;\n"                      \
+  "  mat4 toLights[4];\n"                                                   \
+  "  vec4 towardSky[3];\n"                                                  \
   "};\n"
+
+// Of an exposure: the key light and three points of the sky have a tile each of one map of depths.
+// What lies beyond a tile is lit. A caster takes less of the sky the farther it is: single far ones
+// would be seen as shadows with edges.
+#define EXPOSED                                                               \
+  "#ifdef EXPOSED\n"                                                          \
+  "uniform sampler2D lights;\n"                                               \
+  "float behind(int light, vec3 at) {  // the caster, in depths of the map\n" \
+  "  vec3 p = (toLights[light] * vec4(at, 1.0)).xyz;\n"                       \
+  "  vec2 middle = abs(p.xy - 0.5);\n"                                        \
+  "  if (max(middle.x, middle.y) > 0.499) return 0.0;\n"                      \
+  "  vec2 tile = 0.5 * vec2(light & 1, light >> 1);\n"                        \
+  "  float depth = textureLod(lights, 0.5 * p.xy + tile, 0.0).r;\n"           \
+  "  return max(min(p.z, 1.0) - depth, 0.0);\n"                               \
+  "}\n"                                                                       \
+  "float reached(vec3 at) { return behind(0, at) > 0.0 ? 0.0 : 1.0; }\n"      \
+  "// Of what all the sky would give to a face with this normal.\n"           \
+  "float skyOn(vec3 n, vec3 at) {\n"                                          \
+  "  float sum = 0.0;\n"                                                      \
+  "  for (int i = 0; i < 3; ++i) {\n"                                         \
+  "    float share = max(dot(n, towardSky[i].xyz), 0.0);\n"                   \
+  "    float far = 7.0 * behind(i + 1, at);\n"                                \
+  "    sum += far > 0.0 ? share * far * far / (1.0 + far * far) : share;\n"   \
+  "  }\n"                                                                     \
+  "  return 2.0 / 3.0 * sum;\n"                                               \
+  "}\n"                                                                       \
+  "#endif\n"
 
 const char* const kBodyVertex = FRAME_BLOCK R"(
 layout(location = 0) in vec4 position;
@@ -72,8 +101,10 @@ void main() {
 const char* const kCasterFragment = "void main() {}\n";
 
 // Key light with soft shadow, sky and floor as ambient, a little gloss, dark edges.
-const char* const kBodyFragment = FRAME_BLOCK R"(
+const char* const kBodyFragment = FRAME_BLOCK EXPOSED R"(
+#ifndef EXPOSED
 uniform sampler2DShadow shadowMap;
+#endif
 #ifdef SURFACE
 uniform vec4 tints[2];  // front and back, linear
 in vec3 vWorld, vNormal, vCell;
@@ -85,6 +116,7 @@ flat in float vMarked;
 #endif
 out vec4 color;
 
+#ifndef EXPOSED
 // Taps on a square. Two opposite corners that agree speak for all; and the loop's length is data:
 // a software rasteriser leaves it as soon as no pixel of a group needs more.
 float lit(float facing, vec3 inShadow) {
@@ -100,6 +132,7 @@ float lit(float facing, vec3 inShadow) {
   }
   return count > 0 ? sum / float(count) : 1.0;
 }
+#endif
 
 #ifdef SURFACE
 float lineDarkness() {
@@ -145,15 +178,26 @@ void main() {
   float dark = edgeDarkness();
 #endif
   float facing = dot(n, towardLight.xyz);
-  float key = max(facing, 0.0) * (shadow.x > 0.0 ? lit(facing, inShadow) : 1.0);
+  float key = max(facing, 0.0);
+#ifdef EXPOSED
+  vec3 outside = vWorld + n * shadow.y;
+  if (shadow.x > 0.0 && facing > 0.0) key *= reached(outside);
+#else
+  key *= shadow.x > 0.0 ? lit(facing, inShadow) : 1.0;
+#endif
   float height = max(vWorld.y - ground.x, 0.0) / (0.12 * pixels.w);
   float contact = ground.y > 0.0 ? (0.5 - 0.5 * n.y) / (1.0 + height * height) : 0.0;
   float aside = n.x * towardLight.z - n.z * towardLight.x;  // faces that share the key light differ
   float sky = 0.46 + 0.13 * n.y + 0.20 * aside + 0.06 * max(dot(n, toEye), 0.0);
-  vec3 ambient = vec3(0.97, 0.99, 1.03) * sky * (1.0 - 0.55 * contact);
+  float open = 1.0 - 0.55 * contact;
+#ifdef EXPOSED
+  // The floor's share of what is around, and the sky's; light that comes back from all sides.
+  if (shadow.x > 0.0) open = mix(0.22, 1.0, (0.5 - 0.5 * n.y) * open + skyOn(n, outside));
+#endif
+  vec3 ambient = vec3(0.97, 0.99, 1.03) * sky * open;
   float gloss = max(dot(n, normalize(toEye + towardLight.xyz)), 0.0);
   gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss;
-  vec3 light = albedo * (ambient + vec3(0.61, 0.60, 0.58) * key) + 0.07 * gloss * key;
+  vec3 light = albedo * (ambient + keyColor.rgb * key) + 0.07 * gloss * key;
   light *= 1.0 - 0.5 * dark;
   color = vec4(encoded(light) * tint.a, tint.a);
 }
@@ -172,8 +216,10 @@ void main() {
 )";
 
 // Colours here are mixed as they are encoded: the ground is a drawing, not a lit body.
-const char* const kFloorFragment = FRAME_BLOCK R"(
+const char* const kFloorFragment = FRAME_BLOCK EXPOSED R"(
+#ifndef EXPOSED
 uniform sampler2D sharpMask, wideMask;
+#endif
 in vec2 vAt;
 in vec2 vInShadow;
 out vec4 color;
@@ -194,14 +240,22 @@ void main() {
   vec3 paint = groundColor.rgb;
   paint *= 1.0 - 0.07 * lines(cell, ground.w);
   paint *= 1.0 - 0.12 * lines(cell / 5.0, 1.3 * ground.w);
+#ifdef EXPOSED
+  vec3 at = vec3(groundFade.x + vAt.x, ground.x, groundFade.y + vAt.y);
+  float dark = 0.36 * (1.0 - reached(at)) + 0.5 * (1.0 - skyOn(vec3(0.0, 1.0, 0.0), at));
+#else
   vec2 wide = textureLod(wideMask, vInShadow, 0.0).rg;
   float sharp = textureLod(sharpMask, vInShadow, 0.0).r;
   float far = clamp(shadowOfGround.w * wide.g / max(wide.r, 0.004), 0.0, 1.0);
   float dark = 0.36 * mix(sharp, wide.r, far) + 0.16 * wide.r * (1.0 - far);
+#endif
   vec2 middle = abs(vInShadow - 0.5);  // blurred, a shadow reaches the border again
   dark *= clamp((0.5 - max(middle.x, middle.y)) * 40.0, 0.0, 1.0);
   paint *= 1.0 - shadow.x * dark * vec3(1.0, 0.98, 0.95);
-  color = vec4(mix(paint, background.rgb, gone), 1.0);
+  // Over nothing the ground is only what it darkens.
+  float darkened = 1.0 - paint.g / max(groundColor.g, 0.001);
+  color = background.a < 1.0 ? vec4(vec3(0.0), darkened * (1.0 - gone))
+                             : vec4(mix(paint, background.rgb, gone), 1.0);
 }
 )";
 

@@ -21,17 +21,8 @@ ShadowView shadowViewOf(const Frame& frame) {
 }  // namespace
 
 Shadow::Shadow(int size) : size_(size) {
-  map_ = makeMap();
-  glGenSamplers(1, &compare_);
-  const auto set = [this](GLenum name, GLenum value) {
-    glSamplerParameteri(compare_, name, static_cast<GLint>(value));
-  };
-  set(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  set(GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  set(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  set(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  set(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  set(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  map_ = makeDepthMap(size_, "the shadow map");
+  compare_ = makeDepthSampler();
   array_ = makeVertexArray();
   maskProgram_ = makeProgram(kViewportVertex, kMaskFragment);
   sharpProgram_ = makeProgram(kViewportVertex, kSharpFragment);
@@ -44,18 +35,6 @@ Shadow::Shadow(int size) : size_(size) {
   sharp_ = makeLayer(size / 2);
   wide_ = makeLayer(size / 8);
   wideAcross_ = makeLayer(size / 8);
-}
-
-Shadow::Map Shadow::makeMap() const {
-  Map map;
-  map.texture = makeTexture(GL_DEPTH_COMPONENT16, size_, size_, GL_NEAREST);
-  glGenFramebuffers(1, &map.framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, map.framebuffer);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, map.texture, 0);
-  glDrawBuffer(GL_NONE);
-  glReadBuffer(GL_NONE);
-  requireCompleteFramebuffer("the shadow map");
-  return map;
 }
 
 Shadow::Layer Shadow::makeLayer(int size) {
@@ -89,13 +68,9 @@ void Shadow::drawMasks(const Bounds& bounds) const {
 
 void Shadow::drawMap(const ShadowWork& work, Bodies& bodies, const Surfaces& surfaces,
                      DrawCounts& counts) {
-  if (work.newLayer && stillMap_.texture == 0) stillMap_ = makeMap();
+  if (work.newLayer && stillMap_.texture == 0) stillMap_ = makeDepthMap(size_, "the shadow map");
   glViewport(0, 0, size_, size_);
-  glEnable(GL_DEPTH_TEST);
-  glEnable(GL_DEPTH_CLAMP);
-  glEnable(GL_CLIP_DISTANCE0);
-  glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(1.5f, 2.0f);
+  const CasterState state;
   if (work.newLayer) {
     glBindFramebuffer(GL_FRAMEBUFFER, stillMap_.framebuffer);
     glClear(GL_DEPTH_BUFFER_BIT);
@@ -113,10 +88,6 @@ void Shadow::drawMap(const ShadowWork& work, Bodies& bodies, const Surfaces& sur
   surfaces.drawCasters();
   counts.casters += static_cast<std::int64_t>(work.moving.size());
   ++counts.shadowMaps;
-  glDisable(GL_POLYGON_OFFSET_FILL);
-  glDisable(GL_CLIP_DISTANCE0);
-  glDisable(GL_DEPTH_CLAMP);
-  glDisable(GL_DEPTH_TEST);
 }
 
 void Shadow::draw(Bodies& bodies, const Surfaces& surfaces, const Frame& frame,

@@ -9,6 +9,7 @@
 
 #include "render/bodies.h"
 #include "render/bounds.h"
+#include "render/casters.h"
 #include "render/gl.h"
 #include "render/renderer.h"
 #include "render/still_casters.h"
@@ -28,19 +29,15 @@ class Shadow {
     GLuint texture = 0, framebuffer = 0;
     int size = 0;
   };
-  struct Map {
-    GLuint texture = 0, framebuffer = 0;
-  };
   static Layer makeLayer(int size);
   static void filter(GLuint program, GLuint source, const Layer& target, const Bounds& bounds);
-  Map makeMap() const;
   void drawMap(const ShadowWork& work, Bodies& bodies, const Surfaces& surfaces,
                DrawCounts& counts);
   void drawMasks(const Bounds& bounds) const;
 
   int size_ = 0;
   StillCasters still_;
-  Map map_, stillMap_;  // the second is made when it is first needed
+  DepthMap map_, stillMap_;  // the second is made when it is first needed
   bool masksHold_ = false;
   Bounds maskBounds_;
   GLuint compare_ = 0, array_ = 0;

@@ -13,8 +13,8 @@ const Vec3f kNoLine = Vec3f::Constant(0.5f);  // lines run through whole numbers
 
 }  // namespace
 
-Surfaces::Surfaces()
-    : colorProgram_(makeProgram(kSurfaceVertex, kBodyFragment, "#define SURFACE\n")),
+Surfaces::Surfaces(const std::string& defines)
+    : colorProgram_(makeProgram(kSurfaceVertex, kBodyFragment, "#define SURFACE\n" + defines)),
       casterProgram_(makeProgram(kSurfaceVertex, kCasterFragment, "#define CASTER\n")),
       array_(makeVertexArray()),
       vertexBuffer_(makeBuffer()),

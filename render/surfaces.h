@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "render/frame.h"
@@ -13,7 +14,7 @@ namespace render {
 
 class Surfaces {
  public:
-  Surfaces();
+  explicit Surfaces(const std::string& defines);  // of the program that colours them
 
   void arrange(const Picture& picture, const Frame& frame);
 
