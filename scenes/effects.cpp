@@ -216,7 +216,7 @@ void fillLocalSubsteps(const Survey& s, Effect& e) {
 }
 
 void fillShadows(const Survey& s, Effect& e) {
-  e.on = s.scene.shadows;
+  e.on = s.scene.light.shadows;
   e.why = or_(s.place("light.shadows"), "dbd render draws them");
   e.stays = "of pictures, not of the step";
 }

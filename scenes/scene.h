@@ -30,13 +30,46 @@ struct CameraKey {
   double fieldOfViewDegrees = 35;
 };
 
+// Names of bodies and patterns such as "stack.*": a body that one of them matches is meant.
+struct Patterns {
+  static constexpr const char* kTypeWord = "a name or a pattern | several";
+  std::vector<std::string> any;
+  bool operator==(const Patterns&) const = default;
+};
+bool matches(const Patterns& patterns, const std::string& name);
+
 struct CameraDef {
   // No keys: the camera looks along `direction` and fits the motion of everything that moves.
   std::vector<CameraKey> keys;
   physics::Vec3 direction{-0.5, -0.35, -1.0};
   double fieldOfViewDegrees = 35;
-  std::string fit = "*";  // the bodies to fit: a name or a pattern such as "stack.*"
-  double margin = 0.08;   // of the picture, left free on each side
+  Patterns fit{{"*"}};   // the bodies to fit
+  Patterns follow;       // the bodies whose middle it moves with, from where it would stand
+  double margin = 0.08;  // of the picture, left free on each side
+};
+
+struct LightDef {  // what is absent is as render::Light has it
+  bool shadows = true;
+  std::optional<physics::Vec3> direction;  // the way light travels
+  std::optional<Eigen::Vector4f> color;    // sRGB
+  std::optional<double> softnessDegrees;   // half the angle that the light is seen under
+};
+
+// How a film shows the time of the motion. A step of the simulation takes one frame of it, or a
+// part of one where that is longer than a step, or than a moment while the shutter is open.
+struct FilmDef {
+  int fps = 0;                // of the film; 0: as many as the motion has
+  double speed = 1;           // seconds of the motion in one of the film
+  double shutterDegrees = 0;  // of 360 a frame that it is open; 0: no blur
+  int every = 1;              // steps from one frame of the film to the next
+  int moments = 1;            // and how many of them the shutter sees, from the frame's own on
+};
+
+struct LabelDef {                            // [[label]]
+  std::string text, body;                    // no body: `at` is a place in the world
+  physics::Vec3 at = physics::Vec3::Zero();  // m, from the body's centre
+  std::optional<double> from, to;            // s
+  double size = 18;                          // pixels of a picture of 720 lines
 };
 
 struct Overlays {  // drawn on request, off by default
@@ -66,7 +99,10 @@ struct Scene {
   physics::Settings settings;
   CameraDef camera;
   Overlays overlays;
-  bool shadows = true;  // [light]
+  LightDef light;
+  FilmDef film;
+  std::vector<LabelDef> labels;
+  std::optional<Eigen::Vector4f> background;  // sRGB; alpha 0: transparent
   GoldenDef golden;
   std::vector<Expectation> expectations;
   std::vector<std::string> effects;  // words that switch something on, for `dbd list`

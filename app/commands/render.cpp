@@ -68,7 +68,8 @@ RenderJob makeJob(const RenderOptions& options, const scenes::Scene& scene) {
   job.view.hud = options.hud;
   job.view.overlays = chooseOverlays(scene.overlays, options.overlays);
   job.view.aspect = static_cast<double>(job.renderer.width) / job.renderer.height;
-  job.frames = parseFrameRange(options.frames.empty() ? ":" : options.frames, scene.frameCount());
+  const std::string whole = fmt::format("::{}", scene.film.every);
+  job.frames = parseFrameRange(options.frames.empty() ? whole : options.frames, scene.frameCount());
   job.askedOverlays = options.overlays;
   job.printWidth = options.printWidth;
   job.folder = options.common.outputFolder(scene.name);
@@ -80,7 +81,7 @@ RenderJob makeJob(const RenderOptions& options, const scenes::Scene& scene) {
   return job;
 }
 
-// Every S-th frame plays at fps/S, so that the film keeps the pace of the scene.
+// Every S-th frame plays at fps/S, so that the film keeps the pace of the scene, or that of [film].
 void makeVideo(const scenes::Scene& scene, const RenderJob& job, RenderResult& result) {
   const std::filesystem::path file = job.folder / (scene.name + ".mp4");
   const int step = job.frames.size() > 1 ? job.frames[1] - job.frames[0] : 1;
@@ -95,7 +96,8 @@ void makeVideo(const scenes::Scene& scene, const RenderJob& job, RenderResult& r
   const Stopwatch watch;
   render::FilmOptions film;
   film.notes = filmNotes(result.record);
-  film.framesPerSecond = std::max(1, static_cast<int>(std::lround(1.0 * scene.fps / step)));
+  film.framesPerSecond =
+      std::max(1, static_cast<int>(std::lround(scene.fps * scene.film.speed / step)));
   try {
     render::makeFilm(
         render::frameFiles(job.folder / "frames", job.frames.front(), job.frames.back(), step),
@@ -215,6 +217,10 @@ ExitCode renderScene(RenderOptions options) {
   }
   if (options.jobs > 0) return printShards(options, job);
   if (options.video) requireFfmpeg("--video");
+  if (options.video && scene.background && scene.background->w() < 1) {
+    throw scenes::InputError(
+        "--video: films are opaque, and the background is transparent; --set background=white");
+  }
   std::optional<Trust> trust;
   if (options.trust) {
     const TrustPlan plan = planTrust(scene.path, scene.overrides);

@@ -152,8 +152,8 @@ class RunPlayer {
       if (panel.run != run_) continue;
       const auto& shown = panel.frames;
       const bool still = std::find(shown.begin(), shown.end(), simulation.frame()) != shown.end();
-      if (still) bounds_[i].include(simulation, cameraOf(panel).fit);
-      filmBounds_[i].include(simulation, scene_.camera.fit);
+      if (still) bounds_[i].include(simulation, cameraOf(panel));
+      filmBounds_[i].include(simulation, scene_.camera);
     }
   }
 

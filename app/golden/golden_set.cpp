@@ -80,7 +80,7 @@ class GoldenDrawing {
     run_.frames.push_back(
         {moment.frame,
          {hexadecimal(simulation_.stateHash()), hexadecimal(render::pictureHash(picture))},
-         app::drawFrame(renderer, moment.frame, picture)});
+         app::drawFrame(renderer, moment.frame, {&picture, 1})});
   }
 
   scenes::Simulation simulation_;

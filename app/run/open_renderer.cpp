@@ -18,9 +18,9 @@ std::unique_ptr<render::Renderer> openRenderer(const render::RendererOptions& op
 
 // States that are finite may be too far away for single precision.
 const render::Image& drawFrame(render::Renderer& renderer, int frame,
-                               const render::Picture& picture) {
+                               std::span<const render::Picture> moments) {
   try {
-    return renderer.draw(picture);
+    return renderer.draw(moments);
   } catch (const std::invalid_argument& error) {
     throw CheckFailed("frame " + std::to_string(frame) + " cannot be drawn: " + error.what());
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "render/renderer.h"
 
@@ -12,6 +13,6 @@ std::unique_ptr<render::Renderer> openRenderer(const render::RendererOptions& op
 // Throws CheckFailed that names the frame where it is too far away to be drawn. The image is the
 // renderer's, until it draws again.
 const render::Image& drawFrame(render::Renderer& renderer, int frame,
-                               const render::Picture& picture);
+                               std::span<const render::Picture> moments);
 
 }  // namespace app

@@ -20,8 +20,11 @@ physics::Vec3 vectorFrom(const Json& json) {
 
 }  // namespace
 
-std::string Painter::task(int frame, const scenes::MotionBounds& bounds) {
-  return Json{{"frame", frame}, {"low", numbers(bounds.low)}, {"high", numbers(bounds.high)}}
+std::string Painter::task(int frame, int last, const scenes::MotionBounds& bounds) {
+  return Json{{"frame", frame},
+              {"last", last},
+              {"low", numbers(bounds.low)},
+              {"high", numbers(bounds.high)}}
       .dump();
 }
 
@@ -30,24 +33,31 @@ std::string Painter::draw(const std::string& task) {
   const int frame = asked.at("frame").get<int>();
   if (!renderer_) renderer_ = openRenderer(job_.renderer);
   Stopwatch watch;
-  const render::Picture picture =
-      view(frame, {vectorFrom(asked.at("low")), vectorFrom(asked.at("high"))});
+  const scenes::MotionBounds bounds = {vectorFrom(asked.at("low")), vectorFrom(asked.at("high"))};
+  std::vector<render::Picture> moments = {view(frame, bounds)};
+  for (int at = frame + 1; at <= asked.at("last").get<int>(); ++at) {
+    moments.push_back(picture(at, bounds, {}));
+  }
   const double view = watch.lap();
-  const render::Image& image = drawFrame(*renderer_, frame, picture);
+  const render::Image& image = drawFrame(*renderer_, frame, moments);
   const double draw = watch.lap();
   render::writePng(image, frames_.file(frame), notesOf(record_, frame));
   return Json{{"view", view}, {"draw", draw}, {"write", watch.lap()}}.dump();
 }
 
 render::Picture Painter::view(int frame, const scenes::MotionBounds& bounds) {
-  const scenes::Moment moment = motion_.moment(frame);
-  if (!simulation_.show(moment)) {
-    throw CheckFailed("frame " + std::to_string(frame) + " is not finite");
-  }
   while (job_.view.hud && static_cast<int>(history_.size()) <= frame) {
     history_.push_back(motion_.moment(static_cast<int>(history_.size())).metrics);
   }
-  return scenes::view(simulation_, bounds, job_.view, history_);
+  return picture(frame, bounds, history_);
+}
+
+render::Picture Painter::picture(int frame, const scenes::MotionBounds& bounds,
+                                 const std::vector<scenes::FrameMetrics>& history) {
+  if (!simulation_.show(motion_.moment(frame))) {
+    throw CheckFailed("frame " + std::to_string(frame) + " is not finite");
+  }
+  return scenes::view(simulation_, bounds, job_.view, history);
 }
 
 std::optional<render::Renderer::Info> askRendererInfo() {

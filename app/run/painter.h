@@ -19,11 +19,14 @@ class Painter {
           const FrameFolder& frames, const RunRecord& record)
       : simulation_(simulation), motion_(motion), job_(job), frames_(frames), record_(record) {}
 
-  static std::string task(int frame, const scenes::MotionBounds& bounds);
+  // `last`: the last frame that the shutter sees, from `frame` on.
+  static std::string task(int frame, int last, const scenes::MotionBounds& bounds);
   std::string draw(const std::string& task);  // the seconds that it took, by stage, as JSON
 
  private:
-  render::Picture view(int frame, const scenes::MotionBounds& bounds);
+  render::Picture view(int frame, const scenes::MotionBounds& bounds);  // with the HUD's history
+  render::Picture picture(int frame, const scenes::MotionBounds& bounds,
+                          const std::vector<scenes::FrameMetrics>& history);
 
   scenes::Simulation& simulation_;
   const Motion& motion_;

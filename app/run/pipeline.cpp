@@ -44,7 +44,7 @@ void Pipeline::work(const render::RendererOptions& options) {
     const std::unique_ptr<render::Renderer> renderer = openRenderer(options);
     while (const std::optional<Job> job = queue_.pop()) {
       Stopwatch watch;
-      const render::Image& image = drawFrame(*renderer, job->frame, job->picture);
+      const render::Image& image = drawFrame(*renderer, job->frame, {&job->picture, 1});
       const double draw = watch.lap();
       sink_(job->frame, image);
       const std::lock_guard lock(mutex_);

@@ -133,7 +133,7 @@ class Drawing {
   }
 
   void include(const scenes::Moment& moment) {
-    bounds_.include(simulation_, simulation_.scene().camera.fit, moment.poses);
+    bounds_.include(simulation_, simulation_.scene().camera, moment.poses);
     addAccuracy(simulation_.scene(), moment.metrics.accuracy, result_.record.accuracy);
     if (!agreesWithRecord(moment.frame, moment.stateHash) && frames_.count() > 0) {
       refuse(frames_, fmt::format("of a run whose states differ from frame {} on, though scene, "
@@ -172,7 +172,9 @@ class Drawing {
       return;
     }
     ++result_.drawn;
-    crew_.ask(frame, Painter::task(frame, bounds_));
+    const int moments = simulation_.scene().film.moments;
+    const int last = moments == 1 ? frame : std::min(frame + moments, result_.end.frames) - 1;
+    crew_.ask(frame, Painter::task(frame, last, bounds_));
   }
 
   void take(const Json& seconds) {

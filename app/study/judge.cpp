@@ -64,15 +64,19 @@ void conclude(const scenes::Checker& checker, double fps, int lastFrame, bool is
 // What the culprits look like, without what is around them; none: nobody is named.
 std::optional<render::Picture> closeUp(const scenes::Simulation& simulation,
                                        const TraceFailure& failure, scenes::ViewOptions options) {
-  scenes::MotionBounds bounds;
+  scenes::CameraDef culprits;
+  culprits.fit.any.clear();
   std::istringstream names(failure.bodies);
   for (std::string name; std::getline(names, name, ',');) {
     name.erase(0, name.find_first_not_of(' '));
-    if (name != "world") bounds.include(simulation, name);
+    if (name != "world") culprits.fit.any.push_back(name);
   }
+  scenes::MotionBounds bounds;
+  bounds.include(simulation, culprits);
   if (!(bounds.low.array() <= bounds.high.array()).all()) return std::nullopt;
   options.camera = simulation.scene().camera;
   options.camera->keys.clear();
+  options.camera->follow.any.clear();
   options.camera->margin = kCloseMargin;
   return scenes::view(simulation, bounds, options, {});
 }

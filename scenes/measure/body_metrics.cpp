@@ -138,6 +138,11 @@ constexpr Metric kBodyMetrics[] = {
 
 std::span<const Metric> bodyMetrics() { return kBodyMetrics; }
 
+bool matches(const Patterns& patterns, const std::string& name) {
+  return std::any_of(patterns.any.begin(), patterns.any.end(),
+                     [&](const std::string& pattern) { return matches(pattern, name); });
+}
+
 bool matches(const std::string& pattern, const std::string& name) {
   size_t p = 0, n = 0, star = std::string::npos, resume = 0;
   while (n < name.size()) {

@@ -63,6 +63,8 @@ std::string typeWord(const physics::Field& field) {
                   requires std::is_same_v<T, std::optional<typename T::value_type>>;
                 }) {
     return typeWord<typename T::value_type>(field);
+  } else if constexpr (requires { T::kTypeWord; }) {
+    return T::kTypeWord;
   } else if constexpr (std::is_same_v<T, bool>) {
     return "true | false";
   } else if constexpr (std::is_integral_v<T>) {

@@ -103,25 +103,32 @@ void readBody(TableReader& reader, Recipe& recipe) {
 
 void readColor(TableReader& reader, std::optional<render::Color>& color) {
   const Value* value = reader.take("color");
-  if (value == nullptr) return;
-  const Spot spot = reader.spot(Field{"color", Unit::kNone, false, 0, 1});
-  const std::size_t count = value->items.size();
-  if (value->isArray() && (count == 3 || count == 4)) {
+  if (value != nullptr)
+    color = colorOf(*value, reader.spot(Field{"color", Unit::kNone, false, 0, 1}));
+}
+
+render::Color colorOf(const Value& value, const Spot& spot, bool orTransparent) {
+  const std::size_t count = value.items.size();
+  if (value.isArray() && (count == 3 || count == 4)) {
     std::vector<double> parts;
-    readValue(*value, spot, parts);
-    color = render::Color(0, 0, 0, 1);
+    readValue(value, spot, parts);
+    render::Color color(0, 0, 0, 1);
     for (std::size_t i = 0; i < count; ++i) {
-      (*color)[static_cast<Eigen::Index>(i)] = static_cast<float>(parts[i]);
+      color[static_cast<Eigen::Index>(i)] = static_cast<float>(parts[i]);
     }
-    return;
+    return color;
   }
-  if (value->isString()) color = namedColor(value->text);
-  if (!color) {
-    failExpected(
-        spot, *value,
-        "[r, g, b] or [r, g, b, a] in [0, 1], '#rrggbb', '#rrggbbaa' or the name of a colour" +
-            std::string(value->isString() ? didYouMean(value->text, colorNames()) : ""));
+  std::vector<std::string> names = colorNames();
+  if (orTransparent) {
+    if (value.isString() && value.text == "transparent") return {1, 1, 1, 0};
+    names.emplace_back("transparent");
   }
+  const auto color = value.isString() ? namedColor(value.text) : std::nullopt;
+  if (color) return *color;
+  failExpected(spot, value,
+               std::string("[r, g, b] or [r, g, b, a] in [0, 1], '#rrggbb', '#rrggbbaa'") +
+                   (orTransparent ? ", 'transparent'" : "") + " or the name of a colour" +
+                   (value.isString() ? didYouMean(value.text, names) : ""));
 }
 
 }  // namespace scenes

@@ -17,5 +17,7 @@ void readSoftBody(TableReader& reader, Recipe& recipe);
 // color = [r, g, b], "#rrggbb" or a hue's name; with a fourth part what shows through: [r, g, b, a]
 // or "#rrggbbaa", where 1 and ff are opaque.
 void readColor(TableReader& reader, std::optional<render::Color>& color);
+// The same of one value, where "transparent" may be a colour too.
+render::Color colorOf(const Value& value, const Spot& spot, bool orTransparent = false);
 
 }  // namespace scenes

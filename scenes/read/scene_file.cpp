@@ -29,9 +29,9 @@ void readHead(TableReader& root, Scene& scene) {
 
 // Every word there is, so that a misspelt table is reported before what it lacks is missed.
 void checkWords(TableReader& root) {
-  for (const char* word :
-       {"title", "description", "duration", "simulation", "gravity", "contact", "sleep", "camera",
-        "light", "overlays", "golden", "expect", "include", "parameters", "repeat"}) {
+  for (const char* word : {"title", "description", "duration", "simulation", "gravity", "contact",
+                           "sleep", "camera", "film", "light", "background", "label", "overlays",
+                           "golden", "expect", "include", "parameters", "repeat"}) {
     root.take(word);
   }
   for (const Word& word : bodyWords()) root.take(word.name);
@@ -67,10 +67,23 @@ void checkExpectedBodies(const TableReader& root, const Scene& scene, const Buil
          fmt::format("expect: no body '{}'{}", expectation.body,
                      didYouMean(expectation.body, trial.names)));
   }
-  if (!known(scene.camera.fit)) {
-    fail(context, root.table().find("camera")->find("fit")->place,
-         fmt::format("camera.fit: no body '{}'{}", scene.camera.fit,
-                     didYouMean(scene.camera.fit, trial.names)));
+  const auto requireKnown = [&](const Value& place, const char* key, const std::string& pattern) {
+    if (known(pattern)) return;
+    fail(context, place.place,
+         fmt::format("{}: no body '{}'{}", key, pattern, didYouMean(pattern, trial.names)));
+  };
+  const Value* camera = root.table().find("camera");
+  for (const auto& [key, patterns] :
+       {std::pair("fit", &scene.camera.fit), std::pair("follow", &scene.camera.follow)}) {
+    const Value* value = camera == nullptr ? nullptr : camera->find(key);
+    if (value == nullptr) continue;
+    for (const std::string& pattern : patterns->any) {
+      requireKnown(*value, key == std::string("fit") ? "camera.fit" : "camera.follow", pattern);
+    }
+  }
+  for (std::size_t i = 0; i < scene.labels.size(); ++i) {
+    const Value* body = root.table().find("label")->items[i].find("body");
+    if (body != nullptr) requireKnown(*body, "label.body", scene.labels[i].body);
   }
 }
 

@@ -159,6 +159,8 @@ void readCamera(TableReader& reader, CameraDef& camera) {
   reader(Field{"field_of_view_degrees", Unit::kNone, false, 1, 150}, camera.fieldOfViewDegrees);
   reader(Field{"direction", Unit::kDirection}, camera.direction);
   reader(Field{"fit"}, camera.fit);
+  reader(Field{"follow"}, camera.follow);
+  if (reader.has("follow") && !reader.has("fit")) camera.fit = camera.follow;
   reader(Field{"margin", Unit::kNone, false, 0, 10}, camera.margin);
   CameraKey fixed;
   reader(Field{"eye", Unit::kPoint, reader.has("target")}, fixed.eye);
@@ -205,6 +207,7 @@ void readMetric(TableReader& reader, std::string& word, std::string& body, const
 
 void readSettings(TableReader& root, Scene& scene) {
   readTable(root, "simulation", [&](TableReader& reader) { readSimulation(reader, scene); });
+  readFilm(root, scene);
   scene.settings.dt = 1.0 / scene.fps;
   readTable(root, "gravity", [&](TableReader& reader) {
     scene.settings.gravity = physics::Vec3(0, -9.81, 0);
@@ -217,7 +220,7 @@ void readSettings(TableReader& root, Scene& scene) {
 
 void readPresentation(TableReader& root, Scene& scene) {
   readTable(root, "camera", [&](TableReader& reader) { readCamera(reader, scene.camera); });
-  readTable(root, "light", [&](TableReader& reader) { reader(Field{"shadows"}, scene.shadows); });
+  readLooks(root, scene);
   readTable(root, "overlays", [&](TableReader& reader) { readOverlays(reader, scene.overlays); });
   readTable(root, "golden", [&](TableReader& reader) { readGolden(reader, scene, scene.golden); });
   readTables(root, "expect", [&](TableReader& reader) { readExpectation(reader, scene); });

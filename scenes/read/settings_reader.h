@@ -14,8 +14,13 @@ void readSettings(TableReader& root, Scene& scene);
 const char* wordOf(physics::Method method);  // as [simulation] has it
 const char* wordOf(physics::Stepping stepping);
 
-// [camera] [light] [overlays] [golden] and [[expect]].
+// [film]: how long a step of the simulation is.
+void readFilm(TableReader& root, Scene& scene);
+
+// [camera] [light] [overlays] [[label]] [golden] [[expect]] and the background.
 void readPresentation(TableReader& root, Scene& scene);
+void readLooks(TableReader& root, Scene& scene);  // of these, light, background and labels
+void readValue(const Value& value, const Spot& spot, Patterns& out);
 
 // [camera], and the same words in a figure's panel.
 void readCamera(TableReader& reader, CameraDef& camera);

@@ -55,6 +55,8 @@ std::optional<render::Color> namedColor(const std::string& text) {
     if (text == hue.name) return opaque(hue.plain);
   }
   if (text == "grey") return fixedColor();
+  if (text == "white") return opaque({1, 1, 1});
+  if (text == "black") return opaque({0, 0, 0});
   const bool isHex = text.starts_with('#') && (text.size() == 7 || text.size() == 9) &&
                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   unsigned r = 0, g = 0, b = 0, a = 255;
@@ -67,7 +69,7 @@ std::optional<render::Color> namedColor(const std::string& text) {
 std::vector<std::string> colorNames() {
   std::vector<std::string> names;
   for (const Hue& hue : kHues) names.emplace_back(hue.name);
-  names.emplace_back("grey");
+  names.insert(names.end(), {"grey", "white", "black"});
   return names;
 }
 

@@ -13,13 +13,15 @@ namespace scenes {
 struct MotionBounds {
   physics::Vec3 low = physics::Vec3::Constant(1e300), high = physics::Vec3::Constant(-1e300);
   void include(const Simulation& simulation);  // the bodies that the scene's camera fits
-  void include(const Simulation& simulation, const std::string& fit);  // those that match `fit`
-  // Where `poses` has them, by BodyId, instead of where they are.
-  void include(const Simulation& simulation, const std::string& fit,
+  void include(const Simulation& simulation, const CameraDef& camera);
+  // Where `poses` has them, by BodyId, instead of where they are. Of a camera that follows, they
+  // are places against what it follows.
+  void include(const Simulation& simulation, const CameraDef& camera,
                std::span<const physics::Pose> poses);
 };
 
-// True when the scene's camera must know the whole motion before the first picture.
+// True when the whole motion must be known before the first picture: for a camera that fits it, and
+// for a shutter, which sees moments to come.
 bool needsMotionBounds(const Scene& scene);
 
 struct ViewOptions {

@@ -73,7 +73,7 @@ TEST(Glossary, TellsUnitsRangesAndDefaults) {
 }
 
 TEST(Glossary, TheExamplesOfWordsRun) {
-  for (const char* name : {"joints", "forces", "repeat"}) {
+  for (const char* name : {"joints", "forces", "repeat", "pictures"}) {
     Simulation simulation(readScene(libraryFolder() + "/../words/" + name + ".toml"));
     Checker checker(simulation.scene());
     for (int frame = 0; frame < simulation.scene().frameCount(); ++frame) {

@@ -50,7 +50,8 @@ TEST(SceneFile, NamesTheNearestTableForAnUnknownOne) {
 
 TEST(SceneFile, NamesAllKeysForOneThatIsNearNone) {
   EXPECT_EQ(errorOf("[light]\nzzzzzzzzzz = 1\n"),
-            "test.toml:2:1: light: unknown key 'zzzzzzzzzz'; expected shadows");
+            "test.toml:2:1: light: unknown key 'zzzzzzzzzz'; expected shadows, direction, softness "
+            "or color");
   EXPECT_EQ(errorOf("[gravity]\nzzzzzzzzzz = 1\n"),
             "test.toml:2:1: gravity: unknown key 'zzzzzzzzzz'; expected acceleration");
   EXPECT_EQ(errorOf("[sleep]\nzzzzzzzzzz = 1\n"),
