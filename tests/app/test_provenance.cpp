@@ -27,7 +27,7 @@ TEST_F(Provenance, APictureTellsItsCommandAndThatDrawsIt) {
             "--print-width 8.6 --hud --frames 4");
   ASSERT_EQ(run(command + " --quiet -o b").code, 0);
   EXPECT_EQ(readBytes(folder / "b" / "frames" / "00004.png"), bytes);
-  for (const std::string told :
+  for (const std::string& told :
        {std::string("A ball falls"), std::string("Time\0000.0666667 s", 16), std::string("pHYs")}) {
     EXPECT_NE(bytes.find(told), std::string::npos) << told;
   }
