@@ -11,15 +11,17 @@ constexpr int kLanes = ContactBlock::kLanes;
 
 Vec3 at(const float (&rows)[3][kLanes], int l) { return {rows[0][l], rows[1][l], rows[2][l]}; }
 
-void note(const ContactBlock& block, ContactLoads& loads) {
+}  // namespace
+
+ContactLoads loadsOf(const ContactBlock& block) {
+  ContactLoads loads;
   for (int l = 0; l < kLanes; ++l) {
     for (int k = 0; k < block.points; ++k) loads.point[k][l] = block.point[k].lambda[l];
     for (int t = 0; t < 2; ++t) loads.tangent[t][l] = block.tangent[t].lambda[l];
     loads.twist[l] = block.twist[l];
   }
+  return loads;
 }
-
-}  // namespace
 
 // Joints and points are told by the lanes.
 bool SmallSteps::Impl::givesExactly(const Model& w, const Batch& batch) const {
@@ -36,7 +38,7 @@ void SmallSteps::Impl::startGiving(const Model& w, Batch& batch) {
 // Bodies know what contacts carry now.
 void SmallSteps::Impl::noteGiven(const Model& w, Batch& batch) {
   if (!givesExactly(w, batch)) return;
-  for (std::size_t k = 0; k < batch.blocks.size(); ++k) note(batch.blocks[k], batch.told[k]);
+  for (std::size_t k = 0; k < batch.blocks.size(); ++k) batch.told[k] = loadsOf(batch.blocks[k]);
 }
 
 // What lane l has carried since, to `given`: impulses, and turns in the units of the lanes.

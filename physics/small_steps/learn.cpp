@@ -32,6 +32,27 @@ void SmallSteps::Impl::learnLoads(Model& w) {
   w.bodies.velocity = velocity;
 }
 
+// After so many sweeps over contacts alone: all others change nothing, to the last bit, as they go
+// round in a circle of which they make whole turns.
+bool SmallSteps::Impl::isBalanced(Batch& batch, int sweeps) {
+  constexpr int kRound = 32;
+  static_assert(kSweeps % kRound == 0);
+  if (!learning || batch.isMixed() || sweeps % kRound != 0) return false;
+  bool isSame = balanced.size() == batch.motions.size() && sweeps > kRound;
+  batch.told.resize(batch.blocks.size());
+  for (std::size_t k = 0; k < batch.blocks.size(); ++k) {
+    const ContactLoads loads = loadsOf(batch.blocks[k]);
+    isSame = isSame && loads == batch.told[k];
+    batch.told[k] = loads;
+  }
+  for (std::size_t s = 0; isSame && s < balanced.size(); ++s) {
+    isSame = std::equal(balanced[s].u, balanced[s].u + 3, batch.motions[s].u) &&
+             std::equal(balanced[s].turn, balanced[s].turn + 3, batch.motions[s].turn);
+  }
+  balanced = batch.motions;
+  return isSame;
+}
+
 void SmallSteps::Impl::learnLoads(Model& w, Batch& batch) {
   const double h = w.settings.dt / batch.substeps;
   layOut(w, batch);

@@ -87,7 +87,9 @@ struct alignas(32) LaneNumbers {
 struct ContactLoads {
   float point[ContactBlock::kPoints][ContactBlock::kLanes] = {};
   float tangent[2][ContactBlock::kLanes] = {}, twist[ContactBlock::kLanes] = {};
+  bool operator==(const ContactLoads&) const = default;
 };
+ContactLoads loadsOf(const ContactBlock& block);
 
 // Islands of equal substeps and sweeps, which step side by side.
 struct SmallSteps::Batch {
@@ -314,9 +316,11 @@ struct SmallSteps::Impl {
   void tell(const Model& w, int parts) const;
   void countParts(const Batch& batch, std::map<BodyId, IslandPlan>& plans) const;
   void learnLoads(Model& w, Batch& batch);
+  bool isBalanced(Batch& batch, int sweeps);
   const std::function<void()>* wake = nullptr;  // of the present step
-  bool fresh = true;      // nothing has stepped yet, or the state came from elsewhere
-  bool learning = false;  // what contacts carry: they do not give way, nor push
+  bool fresh = true;                 // nothing has stepped yet, or the state came from elsewhere
+  std::vector<LaneMotion> balanced;  // while it is learning, some sweeps ago
+  bool learning = false;             // what contacts carry: they do not give way, nor push
   void fill(const Model& w, double h, bool takesTurns, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
   void noteDeep(const Model& w, Batch& batch, double h) const;

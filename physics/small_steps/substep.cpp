@@ -289,6 +289,7 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   for (int s = 0; s < batch.sweeps; ++s) {
     if (count > 0) {
       sweepContactVelocities(w, batch, s, h);
+      if (isBalanced(batch, s + 1)) break;
       if (!isMixed) continue;
       if (inLanes) {
         batch.joints.solveVelocities(lanesOf(batch));
