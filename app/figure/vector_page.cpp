@@ -20,7 +20,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned count) {
   return CAIRO_STATUS_SUCCESS;
 }
 
-// The shipped font, which has to outlive what is drawn with it.
+// The shipped font. Never freed: cairo keeps what it made of it until the program ends.
 class VectorFont {
  public:
   VectorFont() {
@@ -30,13 +30,6 @@ class VectorFont {
     }
     face_ = cairo_ft_font_face_create_for_ft_face(type_, FT_LOAD_NO_HINTING);
   }
-  ~VectorFont() {
-    cairo_font_face_destroy(face_);
-    FT_Done_Face(type_);
-    FT_Done_FreeType(library_);
-  }
-  VectorFont(const VectorFont&) = delete;
-  VectorFont& operator=(const VectorFont&) = delete;
 
   cairo_font_face_t* face() const { return face_; }
   // Of the height of a line, from the highest letter to the lowest.
@@ -119,7 +112,7 @@ void drawTile(cairo_t* pen, const render::Page::Tile& tile) {
 
 std::string vectorPage(const render::Page& page, const std::vector<render::Ink>& ink,
                        double millimetres, const std::string& format) {
-  const VectorFont font;
+  static const VectorFont font;
   const double width = millimetres * kPointsPerMillimetre, scale = width / page.width;
   std::string bytes;
   cairo_surface_t* surface =

@@ -14,7 +14,7 @@ namespace app {
 namespace {
 
 void requireEnding(const char* option, const std::string& file, bool isRight, const char* endings) {
-  if (isRight || file == "-" || file == "/dev/null") return;
+  if (isRight) return;
   throw scenes::InputError(
       fmt::format("{} {}: expected a name that ends in {}", option, file, endings));
 }
