@@ -12,6 +12,7 @@
 #include "app/run/chosen_motion.h"
 #include "app/run/crew.h"
 #include "app/run/frame_folder.h"
+#include "app/run/frame_range.h"
 #include "app/run/painter.h"
 
 namespace app {

@@ -53,7 +53,7 @@ class TakeRecorder {
     take_.frames = motion_.frames();
     scenes::MotionBounds bounds;
     for (int frame = 0; frame < take_.frames; ++frame) {
-      bounds.include(simulation_, options_.camera->fit, motion_.moment(frame).poses);
+      bounds.include(simulation_, *options_.camera, motion_.moment(frame).poses);
     }
     for (const auto& [name, shown] : kLayers) take_.layers.push_back({name, {}, {}});
     for (int frame = 0; frame < take_.frames; ++frame) {
