@@ -105,11 +105,17 @@ std::string contactPlace(const Survey& s) {
     for (const Value& element : word.value.items) {
       const Value* shape = element.find("shape");
       const bool isPlane = shape != nullptr && shape->find("plane") != nullptr;
-      if (!isPlane && element.find("friction") == nullptr) continue;
+      const bool isGround = shape != nullptr && (shape->find("triangles") != nullptr ||
+                                                 shape->find("heights") != nullptr);
+      const bool isRough = element.find("friction") != nullptr;
+      if (!isPlane && !isGround && !isRough && element.find("restitution") == nullptr) continue;
       Made made;
       made.word = word.key;
       made.place = element.place;
-      return s.place(made) + (isPlane ? " is a plane" : " has friction");
+      return s.place(made) + (isPlane    ? " is a plane"
+                              : isGround ? " is ground"
+                              : isRough  ? " has friction"
+                                         : " has restitution");
     }
   }
   return "";
@@ -149,15 +155,16 @@ void fillFriction(const Survey& s, Effect& e) {
   const std::string place = s.place("contact.friction");
   fillOfContact(s, s.frictional ? "" : "friction 0" + (place.empty() ? "" : " (" + place + ")"),
                 or_(place, "the default of [contact] friction"), e);
-  e.without = withoutFriction(s);
+  e.without = withoutSurface(s, "friction");
 }
 
 void fillRestitution(const Survey& s, Effect& e) {
   const auto& contact = s.scene.settings.contact;
-  const bool bounces = contact && contact->restitution > 0;
-  fillOfContact(s, bounces ? "" : "restitution 0", s.place("contact.restitution"), e);
+  const bool bounces = contact && s.built.world.bodies().mostRestitution > 0;
+  const std::string ofAll = s.place("contact.restitution");
+  fillOfContact(s, bounces ? "" : "restitution 0", or_(ofAll, "bodies have one of their own"), e);
   e.leftOut = e.leftOut && bounces;
-  e.without = {"contact.restitution=0"};
+  e.without = withoutSurface(s, "restitution");
 }
 
 void fillSpeculative(const Survey& s, Effect& e) {

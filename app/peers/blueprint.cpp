@@ -177,6 +177,10 @@ std::string refusalOf(const World& world) {
   }
   if (!world.arms().empty()) return "other engines have no arm";
   for (BodyId i = 1; i < b.size(); ++i) {
+    if (std::holds_alternative<physics::Compound>(b.shape[i]) ||
+        std::holds_alternative<physics::Triangles>(b.shape[i])) {
+      return "bodies of several shapes and meshes of triangles are not handed to other engines";
+    }
     if (b.isSoft[i])
       return "other engines have no " + softWord(world) + ": points with a thickness";
     if (b.friction[i].staticCoefficient != b.friction[i].dynamicCoefficient &&

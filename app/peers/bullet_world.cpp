@@ -43,6 +43,9 @@ struct ShapeMaker {
   Made operator()(const physics::Plane& s) const {
     return std::make_unique<btStaticPlaneShape>(toBullet(s.normal), s.offset);
   }
+  // Blueprints refuse these.
+  Made operator()(const physics::Compound&) const { return nullptr; }
+  Made operator()(const physics::Triangles&) const { return nullptr; }
 };
 
 }  // namespace

@@ -61,6 +61,10 @@ Geometry geometryOf(const physics::Plane& s, BodyId) {
           physics::turnBetween(Vec3::UnitZ(), s.normal)};
 }
 
+// Blueprints refuse these.
+Geometry geometryOf(const physics::Compound&, BodyId) { return {}; }
+Geometry geometryOf(const physics::Triangles&, BodyId) { return {}; }
+
 class Writer {
  public:
   Writer(const physics::World& world, const Blueprint& plan, const Forest& forest)

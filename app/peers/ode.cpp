@@ -150,6 +150,9 @@ class OdePeer : public Peer {
                          data.polygons.data());
   }
   dGeomID geometry(const physics::Plane&) { return nullptr; }  // needs the pose
+  // Blueprints refuse these.
+  dGeomID geometry(const physics::Compound&) { return nullptr; }
+  dGeomID geometry(const physics::Triangles&) { return nullptr; }
 
   void addShape(const physics::Bodies& b, BodyId i) {
     const physics::Pose& pose = b.pose[i];

@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "app/base/build_info.h"
+#include "physics/bodies/compound.h"
+#include "physics/bodies/triangles.h"
 #include "scenes/read/input_error.h"
 
 namespace app {
@@ -27,8 +29,7 @@ class Fingerprint {
       add(bodies.pose[b].q.coeffs());
       add(bodies.mass[b]);
       add(bodies.inertia[b]);
-      add(static_cast<double>(bodies.shape[b].index()));
-      std::visit([this](const auto& shape) { addShape(shape); }, bodies.shape[b]);
+      addAny(bodies.shape[b]);
     }
     return hashText(bytes_);
   }
@@ -39,6 +40,10 @@ class Fingerprint {
   void add(const Vector& vector) {
     for (int i = 0; i < vector.size(); ++i) add(vector[i]);
   }
+  void addAny(const physics::Shape& any) {
+    add(static_cast<double>(any.index()));
+    std::visit([this](const auto& shape) { addShape(shape); }, any);
+  }
   template <class Shape>
   void addShape(const Shape& shape) {
     if constexpr (requires { shape.size; }) add(shape.size);
@@ -46,6 +51,19 @@ class Fingerprint {
     if constexpr (requires { shape.length; }) add(shape.length);
     if constexpr (requires { shape.normal; }) add(shape.normal);
     if constexpr (requires { shape.offset; }) add(shape.offset);
+    if constexpr (requires { shape.parts; }) {
+      for (const physics::Part& part : shape.parts->list) {
+        addAny(part.shape);
+        add(part.pose.x);
+        add(part.pose.q.coeffs());
+      }
+    }
+    if constexpr (requires { shape.mesh; }) {
+      for (const physics::Vec3& vertex : shape.mesh->vertices) add(vertex);
+      for (const auto& face : shape.mesh->faces) {
+        for (const int i : face.vertices) add(static_cast<double>(i));
+      }
+    }
     if constexpr (requires { shape.hull; }) {
       for (const physics::Vec3& vertex : shape.hull->vertices) add(vertex);
     }

@@ -30,6 +30,7 @@ struct BodyDef {
   Velocity velocity;
   Motion motion = Motion::kDynamic;
   std::optional<Friction> friction;  // absent: the World's
+  std::optional<double> restitution;  // 0..1, absent: the World's
   int substeps = 1;                  // at least, of its island, with local substeps
 };
 
@@ -89,6 +90,8 @@ struct Bodies {
   std::vector<Vec3> freeTurn;  // log of the predicted rotation of this substep, world frame [rad]
   std::vector<Shape> shape;
   std::vector<Friction> friction;
+  std::vector<double> restitution;  // of a pair: the larger of the two
+  double mostRestitution = 0;       // of all of them
   bool general = false;        // Settings::leavesOut is off: isotropic inertias turn as others do
   std::vector<bool> isSoft;    // points of a soft surface: it touches for them
   std::vector<BodyId> active;  // those that step: they can move, and do not sleep

@@ -126,7 +126,8 @@ Hull moved(const Hull& hull, const Vec3& centre, const Mat3& toAxes) {
   return result;
 }
 
-// Columns are the principal axes; the identity when the frame has them already (1e-9 relative).
+}  // namespace
+
 Mat3 principalAxes(const Mat3& inertia) {
   const Mat3 off = inertia - Mat3(inertia.diagonal().asDiagonal());
   if (off.norm() <= 1e-9 * inertia.norm()) return Mat3::Identity();
@@ -139,8 +140,6 @@ Mat3 principalAxes(const Mat3& inertia) {
   axes.col(2) = axes.col(0).cross(axes.col(1));
   return axes;
 }
-
-}  // namespace
 
 PolyhedronMass polyhedronMass(const Hull& hull) {
   const Vec3 origin = hull.vertices.at(0);

@@ -16,6 +16,10 @@ struct PolyhedronMass {
 // Exact, by signed tetrahedra from the first vertex.
 PolyhedronMass polyhedronMass(const Hull& hull);
 
+// Columns are the principal axes of a tensor; the identity when the frame has them already (1e-9
+// relative).
+Mat3 principalAxes(const Mat3& inertia);
+
 // The convex hull where the points are: coplanar facets merged, vertices in the order of the
 // points. Throws std::invalid_argument for fewer than four points, points in one plane, or numbers
 // that are not finite.

@@ -6,7 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "physics/bodies/compound.h"
 #include "physics/bodies/hull.h"
+#include "physics/bodies/triangles.h"
 
 namespace physics {
 namespace {
@@ -61,6 +63,16 @@ MassProperties of(const Convex& convex) {
   return {mass.volume, mass.inertiaPerMass.diagonal()};
 }
 
+MassProperties of(const Compound& compound) {
+  require(compound.parts != nullptr, "compound: the parts are missing");
+  return {compound.parts->volume, compound.parts->inertiaPerMass};
+}
+
+MassProperties of(const Triangles& triangles) {
+  require(triangles.mesh != nullptr, "triangles: the mesh is missing");
+  return {};
+}
+
 double radiusOf(const PointShape&) { return 0; }
 double radiusOf(const Box& box) { return 0.5 * box.size.norm(); }
 double radiusOf(const Sphere& sphere) { return sphere.radius; }
@@ -78,6 +90,24 @@ double radiusOf(const Convex& convex) {
   return std::sqrt(square);
 }
 
+double radiusOf(const Compound& compound) {
+  require(compound.parts != nullptr, "compound: the parts are missing");
+  double radius = 0;
+  for (const Part& part : compound.parts->list) {
+    radius = std::max(radius, part.pose.x.norm() + boundingRadius(part.shape));
+  }
+  return radius;
+}
+
+double radiusOf(const Triangles& triangles) {
+  require(triangles.mesh != nullptr, "triangles: the mesh is missing");
+  double square = 0;
+  for (const Vec3& vertex : triangles.mesh->vertices) {
+    square = std::max(square, vertex.squaredNorm());
+  }
+  return std::sqrt(square);
+}
+
 }  // namespace
 
 MassProperties massProperties(const Shape& shape) {
@@ -86,6 +116,10 @@ MassProperties massProperties(const Shape& shape) {
 
 double boundingRadius(const Shape& shape) {
   return std::visit([](const auto& s) { return radiusOf(s); }, shape);
+}
+
+bool isGroundOnly(const Shape& shape) {
+  return std::holds_alternative<Plane>(shape) || std::holds_alternative<Triangles>(shape);
 }
 
 }  // namespace physics

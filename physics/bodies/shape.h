@@ -48,10 +48,23 @@ struct Plane {
   double offset = 0;  // m
 };
 
-using Shape = std::variant<PointShape, Box, Sphere, Capsule, Cylinder, Convex, Plane>;
+// Several shapes that move as one, in the body frame. compound.h
+struct Parts;
+struct Compound {
+  std::shared_ptr<const Parts> parts;
+};
+
+// Ground of triangles, solid below: only for bodies that do not move by themselves. triangles.h
+struct TriangleMesh;
+struct Triangles {
+  std::shared_ptr<const TriangleMesh> mesh;
+};
+
+using Shape = std::variant<PointShape, Box, Sphere, Capsule, Cylinder, Convex, Plane, Compound,
+                           Triangles>;
 
 // Volume [m^3] and principal moments of inertia per unit mass [m^2] about the centre of mass.
-// PointShape has neither; a Plane has no mass: both give zeros.
+// PointShape has neither; a Plane and Triangles have no mass: they give zeros.
 struct MassProperties {
   double volume = 0;
   Vec3 inertiaPerMass = Vec3::Zero();
@@ -69,5 +82,8 @@ PrincipalHull makeHull(std::span<const Vec3> points);
 
 // Radius about the body's origin that holds the shape [m]; infinite for a Plane.
 double boundingRadius(const Shape& shape);
+
+// What has no mass and no inside to be pushed out of by itself: a Plane and Triangles.
+bool isGroundOnly(const Shape& shape);
 
 }  // namespace physics

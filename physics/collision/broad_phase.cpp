@@ -30,6 +30,15 @@ bool overlap(const fcl::AABBd& p, const fcl::AABBd& q) {
   return !apart;
 }
 
+void collect(const Node* node, const fcl::AABBd& box, std::vector<int>& found) {
+  for (; overlap(node->bv, box); node = node->children[1]) {
+    if (node->children[1] == nullptr) {
+      return found.push_back(static_cast<int>(reinterpret_cast<std::intptr_t>(node->data)));
+    }
+    collect(node->children[0], box, found);
+  }
+}
+
 }  // namespace
 
 struct BroadPhase::Impl {
@@ -106,6 +115,17 @@ void BroadPhase::update(std::span<const int> moved, std::span<const Bounds> boun
     const Impl::Item& item = impl_->items[i];
     impl_->appendOverlaps(impl_->large, i, found);
     if (!item.small) impl_->appendOverlaps(impl_->small, i, found);
+  }
+}
+
+void BroadPhase::balance() {
+  for (Impl::Part* part : {&impl_->large, &impl_->small}) part->tree.balanceTopdown();
+}
+
+void BroadPhase::find(const Bounds& bounds, std::vector<int>& found) const {
+  const fcl::AABBd box = boxOf(bounds);
+  for (const Impl::Part* part : {&impl_->large, &impl_->small}) {
+    if (!part->tree.empty()) collect(part->tree.getRoot(), box, found);
   }
 }
 

@@ -27,6 +27,10 @@ class BroadPhase {
   void update(std::span<const int> moved, std::span<const Bounds> bounds,
               std::vector<std::array<int, 2>>& found);
 
+  void balance();  // after many were added
+  // Appends the items whose bounds overlap `bounds`, in no order. Any thread may ask at any time.
+  void find(const Bounds& bounds, std::vector<int>& found) const;
+
   std::size_t bytes() const;  // held now, the tree's nodes included
 
  private:

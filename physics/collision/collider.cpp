@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "physics/base/profile.h"
+#include "physics/collision/mesh_contacts.h"
 #include "physics/collision/narrow.h"
 #include "physics/collision/pairs.h"
 #include "physics/collision/sweep.h"
@@ -26,6 +27,7 @@ constexpr double kShort = 0.1;  // of the thickness
 constexpr double kSpare = 0.1;  // of the margin: looked further than asked, so that manifolds last
 
 double smallerSize(const Solid& a, const Solid& b) {
+  if (b.kind == Kind::triangles) return a.size;
   if (a.size == 0 || b.size == 0) return a.size + b.size;
   return std::min(a.size, b.size);
 }
@@ -56,6 +58,7 @@ struct Collider::Impl {
 
   // Nothing was found, and along the direction that told them apart they do not come near.
   static bool staysApart(Watch& watch, const Item& a, const Item& b, double near) {
+    if (b.solid.kind == Kind::triangles) return false;  // no one direction tells them apart
     const Vec3 normal = watch.normal(), n = b.R * normal;
     const double reachA = reachAlong(a.solid, a.R.transpose() * -n);
     const double apart = n.dot(a.x - b.x) - reachA - reachAlong(b.solid, normal);
@@ -100,6 +103,16 @@ struct Collider::Impl {
     return reach <= watch.reach && travel <= kStill * smallerSize(a.solid, b.solid);
   }
 
+  // From the frames of parts to those of their bodies.
+  static void toBodies(const Item& a, const Item& b, Manifold& manifold) {
+    if (b.isPart) manifold.normal = b.inBody.q * manifold.normal;
+    for (int k = 0; k < manifold.count; ++k) {
+      ContactPoint& point = manifold.points[k];
+      if (a.isPart) point.coreA = a.inBody.x + a.inBody.q * point.coreA;
+      if (b.isPart) point.coreB = b.inBody.x + b.inBody.q * point.coreB;
+    }
+  }
+
   // Changes the watch and what belongs to it, and nothing else: pairs may be looked at side by
   // side.
   void look(Watch& watch) {
@@ -116,6 +129,7 @@ struct Collider::Impl {
     watch.reach = reach + kSpare * step.margin;
     found.pose = pose;
     const double near = b.isPlane || isShort(a, b, reach - step.margin) ? reach : step.margin;
+    if (b.solid.kind == Kind::triangles) return lookAtMesh(watch, found, a, b, near, reach);
     watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, found.manifold);
     watch.setNormal(found.manifold.normal);
     ++watch.calls;
@@ -124,14 +138,44 @@ struct Collider::Impl {
     if (onTheWay) watch.calls += lookAlong(found.manifold, a, b);
     watch.count = static_cast<std::uint8_t>(found.manifold.count);
     watch.known = !onTheWay || watch.count == 0;
+    if (a.isPart || b.isPart) toBodies(a, b, found.manifold);
+  }
+
+  // A mesh is touched from several sides at once, and met on the way by one triangle after another.
+  void lookAtMesh(Watch& watch, Finding& found, const Item& a, const Item& b, double near,
+                  double reach) const {
+    MeshLook mesh;
+    mesh.pose = found.pose;
+    mesh.near = near;
+    mesh.reach = watch.reach;
+    mesh.isFast = near < reach;
+    mesh.way = wayOf(a);
+    mesh.wayOfMesh = wayOf(b);
+    mesh.approach = approach(a, b);
+    mesh.close = closeOf(a, b);
+    int calls = 0;
+    bool met = false;
+    watch.distance = touchMesh(a.solid, b.solid, mesh, found.manifold, found.more, calls, met);
+    watch.calls = static_cast<std::uint8_t>(std::min(calls, 255));
+    watch.count = static_cast<std::uint8_t>(found.manifold.count);
+    watch.more = static_cast<std::uint8_t>(found.more.size());
+    watch.known = !met || watch.count == 0;
+    toBodies(a, b, found.manifold);
+    for (Manifold& manifold : found.more) toBodies(a, b, manifold);
+  }
+
+  Way wayOf(const Item& item) const {
+    return {item.at(step.start[item.body]), item.at(step.end[item.body])};
+  }
+  double closeOf(const Item& a, const Item& b) const {
+    return std::max(0.1 * step.margin, 1e-4 * smallerSize(a.solid, b.solid));
   }
 
   // Not near at the start but fast enough to be within the step: the manifold of the first touch,
   // or, when there is none, that of the end. How many evaluations that took.
   std::uint8_t lookAlong(Manifold& manifold, const Item& a, const Item& b) const {
-    const Way wayA{step.start[a.body], step.end[a.body]};
-    const Way wayB{step.start[b.body], step.end[b.body]};
-    const double close = std::max(0.1 * step.margin, 1e-4 * smallerSize(a.solid, b.solid));
+    const Way wayA = wayOf(a), wayB = wayOf(b);
+    const double close = closeOf(a, b);
     int calls = 1;
     const double part = firstTouch(a.solid, wayA, b.solid, wayB, close, calls).value_or(1.0);
     const Relative pose = collision::relativePose(along(wayA, part), along(wayB, part));
@@ -166,20 +210,26 @@ struct Collider::Impl {
     }
   }
 
+  void take(const Manifold& manifold, const Watch& watch, std::size_t place) {
+    if (place == sources.size()) {
+      sources.push_back(-1);
+      manifolds.emplace_back();
+    }
+    if (watch.isNew || sources[place] != watch.finding) manifolds[place] = manifold;
+    manifolds[place].isNew = watch.isNew;
+    sources[place] = watch.finding;
+  }
+
   void gather() {
     std::size_t count = 0;
     for (const Watch& watch : pairs.watches()) {
       narrowPhaseCalls += watch.calls;
       if (watch.count == 0) continue;
-      if (count == sources.size()) {
-        sources.push_back(-1);
-        manifolds.emplace_back();
+      take(pairs.finding(watch).manifold, watch, count++);
+      for (int k = 0; k < watch.more; ++k) {
+        if (count < sources.size()) sources[count] = -1;  // one finding, several manifolds
+        take(pairs.finding(watch).more[k], watch, count++);
       }
-      if (watch.isNew || sources[count] != watch.finding) {
-        manifolds[count] = pairs.finding(watch).manifold;
-      }
-      manifolds[count].isNew = watch.isNew;
-      sources[count++] = watch.finding;
     }
     sources.resize(count);
     manifolds.resize(count);
@@ -258,9 +308,15 @@ double Collider::distance(BodyId a, const Pose& poseA, BodyId b, const Pose& pos
   if (!impl_) return std::numeric_limits<double>::infinity();
   const int first = impl_->pairs.indexOf(a), second = impl_->pairs.indexOf(b);
   if (first < 0 || second < 0) return std::numeric_limits<double>::infinity();
-  const Solid& solidA = impl_->pairs.items()[first].solid;
-  const Solid& solidB = impl_->pairs.items()[second].solid;
-  return signedDistance(solidA, solidB, relativePose(poseA, poseB));
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = first; i < impl_->pairs.endOf(first); ++i) {
+    for (int j = second; j < impl_->pairs.endOf(second); ++j) {
+      const Item &p = impl_->pairs.items()[i], &q = impl_->pairs.items()[j];
+      const Relative pose = relativePose(p.at(poseA), q.at(poseB));
+      smallest = std::min(smallest, signedDistance(p.solid, q.solid, pose));
+    }
+  }
+  return smallest;
 }
 
 Collider::Counts Collider::counts() const {

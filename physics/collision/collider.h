@@ -27,11 +27,14 @@ struct ContactPoint {
   std::uint32_t feature = 0;  // same value = same pair of features, from step to step
 };
 
-// At most four points between two bodies, a < b not required but (a, b) stable for a pair over its
-// life.
+// At most four points between two bodies, a < b not required but (a, b) stable for a pair of shapes
+// over its life. Bodies of several parts have a manifold for each pair of parts that meet.
 struct Manifold {
   static constexpr int kMaxPoints = 4;
   BodyId a = 0, b = 0;
+  bool radial = false;     // the normal joins the centres of the two bodies: sphere on sphere
+  bool carried = false;    // the normal is that of a face of b, and turns with it
+  std::uint64_t pair = 0;  // of which two shapes, the same over their life; they are sorted by it
   Vec3 normal = Vec3::UnitY();  // body frame of b, unit, from b towards a
   int count = 0;
   bool isNew = true;  // false: as the last find() told it
@@ -46,7 +49,7 @@ class Collider {
   Collider& operator=(Collider&&) noexcept;
 
   // `movable` false: nothing pushes it; two such bodies are never a pair. Ids are added in
-  // increasing order.
+  // increasing order. The parts of a compound are looked at one by one.
   void add(BodyId body, const Shape& shape, bool movable);
   void ignore(BodyId a, BodyId b);  // this pair never touches (jointed neighbours)
   std::span<const std::pair<BodyId, BodyId>> ignored() const;  // sorted, first < second
@@ -55,7 +58,7 @@ class Collider {
   // by BodyId, the same length). A point is reported when its gap at `start` is at most `margin`
   // [m] plus what the two bodies approach each other by. Where a body moves by more than it is
   // thick, the manifold is that of the first touch along the straight sweep (normal and points
-  // taken there). The result is sorted by (a, b), deterministic, and valid until the next call. No
+  // taken there). The result is sorted by (a, its part, b, its part), deterministic, and valid until the next call. No
   // allocation once the scene has settled.
   std::span<const Manifold> find(std::span<const Pose> start, std::span<const Pose> end,
                                  double margin);

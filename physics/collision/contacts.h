@@ -93,7 +93,11 @@ Choice choose(std::span<const Spot> spots, const Limits& limits);
 // Fills the manifold with the points chosen, by feature.
 void finish(const Contacts& contacts, const Relative& pose, const Limits& limits, Manifold& out);
 
-constexpr double kSideTolerance = 1e-4;  // of the smaller size: aligned edges do not flicker
+// Of the smaller size:
+constexpr double kSideTolerance = 1e-4;  // aligned edges do not flicker
+constexpr double kFlat = 5e-4;           // directions this close are one
+constexpr double kDeeper = 1e-3;         // a corner this much deeper is kept
+constexpr double kTie = 1e-4;            // points this close in rank are one
 
 // Feature tags in the two top bits but one; the top bit tells the owner of a facet.
 constexpr std::uint32_t kFacetTag = 0u << 29, kLinesTag = 1u << 29, kPointTag = 2u << 29;

@@ -9,15 +9,13 @@
 #include "physics/collision/box_face.h"
 #include "physics/collision/contacts.h"
 #include "physics/collision/gjk.h"
+#include "physics/collision/mesh_contacts.h"
 #include "physics/collision/round.h"
 
 namespace physics::collision {
 namespace {
 
-constexpr double kFlat = 5e-4;       // of the smaller size: directions this close are one
-constexpr double kDeeper = 1e-3;     // of the smaller size: a corner this much deeper is kept
 constexpr double kRimDeeper = 1e-4;  // a rim has no corners to keep to
-constexpr double kTie = 1e-4;        // of the smaller size: points this close in rank are one
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 double smallerSize(const Solid& a, const Solid& b) {
@@ -56,22 +54,6 @@ void touchPoints(const Solid& a, const Solid& b, const Vec3& n, const Vec3& onA,
   contacts.radiusB = b.rounding;
   contacts.count = 0;
   contacts.add(onA, onB, kPointTag);
-}
-
-// Where the solids would part when moved apart along n: those points touch, `separation` apart.
-// Where they do not part, the point of a that is deepest along -n.
-void touchParting(const Solid& a, const Solid& b, const Relative& pose, const Axis& axis,
-                  Contacts& contacts) {
-  const double away = 1e-2 * smallerSize(a, b) - axis.separation;
-  Relative apart = pose;
-  apart.t += away * axis.n;
-  const Distance d = coreDistance(a, b, apart);
-  Vec3 onA = pose.R * support(a, -(pose.R.transpose() * axis.n)) + pose.t, onB = onA;
-  if (!d.overlap) onA = d.onA - away * axis.n, onB = d.onB;
-  const Vec3 middle = 0.5 * (onA + onB);
-  const Vec3 half = 0.5 * axis.separation * axis.n;
-  touchPoints(a, b, axis.n, d.overlap ? onA : Vec3(middle + half),
-              d.overlap ? Vec3(onA - 2 * half) : Vec3(middle - half), contacts);
 }
 
 // A better start than `axis` among a grid of directions and the way from centre to centre.
@@ -128,7 +110,7 @@ double touchOverlapping(const Solid& a, const Solid& b, const Relative& pose, Ax
   if (!isExact(a, b) && refine(a, b, pose, tolerance, axis, refined)) {
     contacts = refined;
   } else if (contacts.smallestGap() > axis.separation - a.rounding - b.rounding + tolerance) {
-    touchParting(a, b, pose, axis, contacts);
+    touchParting(a, b, pose, axis.n, axis.separation, contacts);
   }
   return axis.separation - a.rounding - b.rounding;
 }
@@ -186,6 +168,20 @@ bool isBoxy(const Solid& a, const Solid& b) {
 
 }  // namespace
 
+void touchParting(const Solid& a, const Solid& b, const Relative& pose, const Vec3& n,
+                  double separation, Contacts& contacts) {
+  const double away = 1e-2 * smallerSize(a, b) - separation;
+  Relative apart = pose;
+  apart.t += away * n;
+  const Distance d = coreDistance(a, b, apart);
+  Vec3 onA = pose.R * support(a, -(pose.R.transpose() * n)) + pose.t, onB = onA;
+  if (!d.overlap) onA = d.onA - away * n, onB = d.onB;
+  const Vec3 middle = 0.5 * (onA + onB);
+  const Vec3 half = 0.5 * separation * n;
+  touchPoints(a, b, n, d.overlap ? onA : Vec3(middle + half),
+              d.overlap ? Vec3(onA - 2 * half) : Vec3(middle - half), contacts);
+}
+
 double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
              Manifold& out) {
   const double size = smallerSize(a, b);
@@ -216,6 +212,11 @@ double touch(const Solid& a, const Solid& b, const Relative& pose, double reach,
 }
 
 Apart apart(const Solid& a, const Solid& b, const Relative& pose) {
+  if (b.isSheet) {
+    const Distance nearest = coreDistance(a, b, pose);
+    if (nearest.overlap) return {-a.rounding, Vec3::UnitY()};
+    return {nearest.distance - a.rounding, (nearest.onA - nearest.onB).normalized()};
+  }
   if (isBoxy(a, b)) {
     const Axes axes = findBoxAxes(a, b, pose, kInfinite);
     return {axes.largest().separation - a.rounding, axes.largest().n};
@@ -227,6 +228,8 @@ Apart apart(const Solid& a, const Solid& b, const Relative& pose) {
 
 double signedDistance(const Solid& a, const Solid& b, const Relative& pose) {
   if (a.kind > b.kind) return signedDistance(b, a, inverse(pose));
+  if (b.kind == Kind::triangles)
+    return a.kind >= Kind::plane ? kInfinite : meshDistance(a, b, pose);
   Contacts contacts;
   if (b.kind == Kind::plane) return a.kind == b.kind ? kInfinite : heightOver(a, b, pose);
   if (isRound(b)) return touchRound(a, b, pose, -kInfinite, contacts);

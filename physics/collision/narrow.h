@@ -22,6 +22,13 @@ struct Apart {
 };
 Apart apart(const Solid& a, const Solid& b, const Relative& pose);
 
+// The point where the solids would part when moved apart along n (from b to a, b's frame) from a
+// separation of their cores that is `separation`; where they do not part, the point of a that is
+// deepest along -n.
+struct Contacts;
+void touchParting(const Solid& a, const Solid& b, const Relative& pose, const Vec3& n,
+                  double separation, Contacts& contacts);
+
 // Signed distance. Exact for separated solids, and for overlapping ones but for cylinders, where it
 // is the depth along the best direction found. b may be of an earlier kind than a.
 double signedDistance(const Solid& a, const Solid& b, const Relative& pose);

@@ -54,6 +54,13 @@ bool reaches(const Bounds& bounds, const Item& plane) {
   return n.dot(lowest - plane.x) <= plane.solid.offset;
 }
 
+// Ordered as the items are: by body, then part. Low bits are left for the sides of a pair.
+std::uint64_t pairKey(int p, int q) {
+  constexpr int kItemBits = 28, kSideBits = 8;
+  return static_cast<std::uint64_t>(p) << (kItemBits + kSideBits) | static_cast<std::uint64_t>(q)
+                                                                        << kSideBits;
+}
+
 }  // namespace
 
 bool isFirst(const Item& p, const Item& q) {
@@ -65,15 +72,25 @@ bool isFirst(const Item& p, const Item& q) {
 void Pairs::add(BodyId body, const Shape& shape, bool movable) {
   require(body >= 0 && body >= static_cast<BodyId>(indexOf_.size()),
           "collider: bodies must be added once, with increasing ids");
+  indexOf_.resize(static_cast<std::size_t>(body) + 1, -1);
+  indexOf_[body] = static_cast<int>(items_.size());
+  const auto* compound = std::get_if<Compound>(&shape);
+  if (compound == nullptr) return addItem(body, shape, movable);
+  for (const Part& part : compound->parts->list) {
+    addItem(body, part.shape, movable);
+    items_.back().isPart = true;
+    items_.back().inBody = part.pose;
+  }
+}
+
+void Pairs::addItem(BodyId body, const Shape& shape, bool movable) {
   Item item;
   item.body = body;
   item.movable = movable;
   item.solid = makeSolid(shape);
   item.isPlane = item.solid.kind == Kind::plane;
   require(!movable || !item.isPlane, "collider: a plane must not be movable");
-  indexOf_.resize(static_cast<std::size_t>(body) + 1, -1);
-  indexOf_[body] = static_cast<int>(items_.size());
-  if (item.isPlane) planes_.push_back(indexOf_[body]);
+  if (item.isPlane) planes_.push_back(static_cast<int>(items_.size()));
   items_.push_back(std::move(item));
   told_.emplace_back();
   moving_.push_back(static_cast<int>(items_.size()) - 1);
@@ -97,7 +114,7 @@ int Pairs::indexOf(BodyId body) const {
 }
 
 bool Pairs::wanted(const Item& p, const Item& q) const {
-  if (!p.movable && !q.movable) return false;
+  if ((!p.movable && !q.movable) || p.body == q.body) return false;
   if (p.solid.kind == Kind::point && q.solid.kind == Kind::point) return false;
   const std::pair<BodyId, BodyId> pair(std::minmax(p.body, q.body));
   return !std::binary_search(ignored_.begin(), ignored_.end(), pair);
@@ -120,8 +137,13 @@ Watch Pairs::newWatch(int p, int q) {
   watch.b = q;
   watch.finding = free_.back();
   free_.pop_back();
-  findings_[watch.finding].manifold.a = items_[p].body;
-  findings_[watch.finding].manifold.b = items_[q].body;
+  Manifold& manifold = findings_[watch.finding].manifold;
+  const Item &a = items_[p], &b = items_[q];
+  manifold.a = a.body;
+  manifold.b = b.body;
+  manifold.radial = b.solid.kind <= Kind::sphere && !a.isPart && !b.isPart;
+  manifold.carried = b.solid.kind >= Kind::box;
+  manifold.pair = pairKey(p, q);
   return watch;
 }
 
@@ -181,8 +203,9 @@ void Pairs::mergeFresh() {
   }
 }
 
-bool Pairs::takeMotion(int i, const Pose& from, const Pose& to) {
+bool Pairs::takeMotion(int i, const Pose& bodyFrom, const Pose& bodyTo) {
   Item& item = items_[i];
+  const Pose from = item.at(bodyFrom), to = item.at(bodyTo);
   const Mat3 R = from.q.toRotationMatrix();
   const bool planeMoved = item.isPlane && (R != item.R || from.x != item.x);
   const double reach = item.isPlane ? kPlaneReach : item.solid.size;
@@ -252,13 +275,17 @@ void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, doubl
 bool Pairs::outdated(std::span<const Pose> start, std::span<const Pose> end,
                      std::span<const BodyId> bodies) const {
   for (const BodyId body : bodies) {
-    const int i = indexOf(body);
-    if (i < 0 || items_[i].isPlane) continue;
-    // Pairs are found within fat_, but what is told of them is of the motion that find() was given.
-    const Item& item = items_[i];
-    const auto& [from, to] = told_[i];
-    const Bounds told = fattened(item.solid, swept(item.solid, from, to), item.move, margin_, 1);
-    if (!within(swept(item.solid, start[body], end[body]), told)) return true;
+    const int first = indexOf(body);
+    for (int i = first; i < endOf(first); ++i) {
+      if (items_[i].isPlane) continue;
+      // Pairs are found within fat_, but what is told of them is of the motion that find() was
+      // given.
+      const Item& item = items_[i];
+      const auto& [from, to] = told_[i];
+      const Bounds told = fattened(item.solid, swept(item.solid, from, to), item.move, margin_, 1);
+      const Bounds now = swept(item.solid, item.at(start[body]), item.at(end[body]));
+      if (!within(now, told)) return true;
+    }
   }
   return false;
 }

@@ -31,7 +31,12 @@ class Pairs {
   std::size_t bytes() const;
 
   const std::vector<Item>& items() const { return items_; }
-  int indexOf(BodyId body) const;  // -1: no shape
+  int indexOf(BodyId body) const;  // its first; -1: no shape
+  int endOf(int first) const {     // the items of a body follow each other
+    int end = first;
+    while (end >= 0 && end < std::ssize(items_) && items_[end].body == items_[first].body) ++end;
+    return end;
+  }
 
   std::vector<Watch>& watches() { return watches_; }  // sorted by (a, b)
   const std::vector<Watch>& watches() const { return watches_; }
@@ -39,6 +44,7 @@ class Pairs {
   std::int64_t broadPhaseCalls() const { return broadPhaseCalls_; }
 
  private:
+  void addItem(BodyId body, const Shape& shape, bool movable);
   bool takeMotion(int item, const Pose& from, const Pose& to);  // true: a plane moved
   void fatten(int item, const Bounds& bounds, double margin);
   bool takeMotions(std::span<const Pose> start, std::span<const Pose> end, bool all);
@@ -55,7 +61,7 @@ class Pairs {
   std::vector<Item> items_;
   std::vector<std::pair<Pose, Pose>> told_;  // by item: the motion that find() was given
   std::vector<Bounds> fat_;
-  std::vector<int> indexOf_;  // by BodyId
+  std::vector<int> indexOf_;  // by BodyId, its first item
   std::vector<int> planes_;   // items that are planes; the tree does not know them
   std::vector<int> moving_;   // items that do not rest
   std::vector<int> late_;     // items that rest, to be placed once more

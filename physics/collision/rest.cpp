@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "physics/collision/pairs.h"
+#include "physics/collision/triangle_tree.h"
 
 namespace physics::collision {
 namespace {
@@ -29,12 +30,14 @@ void carry(std::vector<Watch>& from, std::vector<Watch>& to, F&& leaves) {
 
 void Pairs::rest(std::span<const BodyId> bodies, std::span<const Pose> poses) {
   for (const BodyId body : bodies) {
-    const int i = indexOf(body);
-    if (i < 0 || items_[i].rests) continue;
-    items_[i].rests = true;
-    takeMotion(i, poses[body], poses[body]);
-    moved_[i] = 0;
-    late_.push_back(i);
+    const int first = indexOf(body);
+    for (int i = first; i < endOf(first); ++i) {
+      if (items_[i].rests) continue;
+      items_[i].rests = true;
+      takeMotion(i, poses[body], poses[body]);
+      moved_[i] = 0;
+      late_.push_back(i);
+    }
   }
   std::erase_if(moving_, [&](int i) { return items_[i].rests; });
   carry(watches_, parked_, [&](const Watch& watch) { return bothRest(watch); });
@@ -44,18 +47,22 @@ void Pairs::wake(std::span<const BodyId> bodies) {
   const double nowhere = std::numeric_limits<double>::infinity();
   const auto middle = static_cast<std::ptrdiff_t>(moving_.size());
   for (const BodyId body : bodies) {
-    const int i = indexOf(body);
-    if (i < 0 || !items_[i].rests) continue;
-    items_[i].rests = false;
-    fat_[i] = {Vec3::Constant(nowhere), Vec3::Constant(-nowhere)};  // its pairs are looked for anew
-    moving_.push_back(i);
+    const int first = indexOf(body);
+    for (int i = first; i < endOf(first); ++i) {
+      if (!items_[i].rests) continue;
+      items_[i].rests = false;
+      fat_[i] = {Vec3::Constant(nowhere),
+                 Vec3::Constant(-nowhere)};  // its pairs are looked for anew
+      moving_.push_back(i);
+    }
   }
   std::inplace_merge(moving_.begin(), moving_.begin() + middle, moving_.end());
   std::erase_if(late_, [&](int i) { return !items_[i].rests; });
   carry(parked_, watches_, [&](const Watch& watch) { return !bothRest(watch); });
 }
 
-// Of the pairs that there are, how many are ignored? Points never touch one another.
+// Of the pairs that there are, how many are ignored? Points never touch one another, nor do the
+// parts of a body.
 bool Pairs::canTouch() const {
   std::int64_t solids = 0, points = 0, fixedSolids = 0, fixedPoints = 0;
   for (const Item& item : items_) {
@@ -65,10 +72,15 @@ bool Pairs::canTouch() const {
   }
   const auto among = [](std::int64_t n, std::int64_t m) { return n * (n - 1) / 2 + n * m; };
   std::int64_t pairs = among(solids, points) - among(fixedSolids, fixedPoints);
+  const auto partsOf = [&](int first) { return static_cast<std::int64_t>(endOf(first) - first); };
+  for (const int first : indexOf_) {
+    if (first >= 0 && items_[first].movable) pairs -= partsOf(first) * (partsOf(first) - 1) / 2;
+  }
   for (const auto& [a, b] : ignored_) {
     const int p = indexOf(a), q = indexOf(b);
     if (p < 0 || q < 0 || (!items_[p].movable && !items_[q].movable)) continue;
-    pairs -= items_[p].solid.kind != Kind::point || items_[q].solid.kind != Kind::point;
+    const bool points = items_[p].solid.kind == Kind::point && items_[q].solid.kind == Kind::point;
+    pairs -= points ? 0 : partsOf(p) * partsOf(q);
   }
   return pairs > 0;
 }
@@ -79,7 +91,10 @@ std::size_t Pairs::bytes() const {
                     bytesOf(itemOfTree_) + bytesOf(ignored_) + bytesOf(fresh_) + bytesOf(parked_) +
                     bytesOf(watches_) + bytesOf(findings_) + bytesOf(free_) + bytesOf(moved_) +
                     bytesOf(movedTree_) + bytesOf(treeBounds_) + bytesOf(found_) + tree_.bytes();
-  for (const Item& item : items_) sum += bytesOf(item.solid.edges);
+  for (const Item& item : items_) {
+    sum += bytesOf(item.solid.edges);
+    if (item.solid.triangles) sum += item.solid.triangles->bytes();
+  }
   return sum;
 }
 

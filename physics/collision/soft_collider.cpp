@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/base/rotation.h"
+#include "physics/collision/mesh_contacts.h"
 #include "physics/collision/narrow.h"
 
 namespace physics {
@@ -44,11 +45,21 @@ Placed place(const SoftElement& element, std::span<const Pose> start) {
 
 void SoftCollider::addBody(BodyId body, const Shape& shape) {
   if (std::holds_alternative<PointShape>(shape)) return;
+  rigidOf_.resize(std::max<std::size_t>(rigidOf_.size(), body + 1), -1);
+  rigidOf_[body] = static_cast<int>(rigids_.size());
+  const auto* compound = std::get_if<Compound>(&shape);
+  if (compound == nullptr) return addRigid(body, shape);
+  for (const Part& part : compound->parts->list) {
+    addRigid(body, part.shape);
+    rigids_.back().isPart = true;
+    rigids_.back().inBody = part.pose;
+  }
+}
+
+void SoftCollider::addRigid(BodyId body, const Shape& shape) {
   Rigid rigid;
   rigid.body = body;
   rigid.solid = makeSolid(shape);
-  rigidOf_.resize(std::max<std::size_t>(rigidOf_.size(), body + 1), -1);
-  rigidOf_[body] = static_cast<int>(rigids_.size());
   rigids_.push_back(std::move(rigid));
 }
 
@@ -67,7 +78,7 @@ bool SoftCollider::isIgnored(const SoftElement& element, BodyId body) const {
 void SoftCollider::takeMotion(std::span<const Pose> start, std::span<const Pose> end,
                               double margin) {
   for (Rigid& rigid : rigids_) {
-    const Pose &from = start[rigid.body], &to = end[rigid.body];
+    const Pose from = rigid.at(start[rigid.body]), to = rigid.at(end[rigid.body]);
     rigid.rotation = from.q.toRotationMatrix();
     rigid.move = to.x - from.x;
     rigid.turn = 0;
@@ -105,24 +116,45 @@ void SoftCollider::look(int index, const Rigid& rigid, std::span<const Pose> sta
       std::max((end[element.from].x - start[element.from].x - rigid.move).norm(),
                (end[element.to].x - start[element.to].x - rigid.move).norm());
   const double reach = margin + approach + rigid.turn;
-  const bool swap = placed.solid.kind > rigid.solid.kind;  // a capsule against a sphere
-  const Relative pose = relativePose(placed.pose, start[rigid.body]);
+  const Relative pose = relativePose(placed.pose, rigid.at(start[rigid.body]));
   Manifold manifold;
+  if (rigid.solid.kind == Kind::triangles) {
+    std::vector<Manifold> more;
+    int calls = 0;
+    bool met = false;
+    MeshLook mesh;
+    mesh.pose = pose;
+    mesh.near = mesh.reach = reach;
+    touchMesh(placed.solid, rigid.solid, mesh, manifold, more, calls, met);
+    take(index, placed.solid, rigid, pose, manifold, false);
+    for (const Manifold& other : more) take(index, placed.solid, rigid, pose, other, false);
+    return;
+  }
+  const bool swap = placed.solid.kind > rigid.solid.kind;  // a capsule against a sphere
   if (swap) {
     touch(rigid.solid, placed.solid, inverse(pose), reach, reach, manifold);
   } else {
     touch(placed.solid, rigid.solid, pose, reach, reach, manifold);
   }
+  take(index, placed.solid, rigid, pose, manifold, swap);
+}
+
+void SoftCollider::take(int index, const Solid& solid, const Rigid& rigid, const Relative& pose,
+                        const Manifold& manifold, bool swap) {
+  const SoftElement& element = elements_[index];
   for (int k = 0; k < manifold.count; ++k) {
     const ContactPoint& p = manifold.points[k];
     const Vec3 n = swap ? Vec3(-(pose.R * manifold.normal)) : manifold.normal;  // rigid frame
     const Vec3& onElement = swap ? p.coreB : p.coreA;                           // its own frame
     const Vec3 onRigid = swap ? Vec3(p.coreA + p.radiusA * n) : Vec3(p.coreB + p.radiusB * n);
-    const double length = 2 * placed.solid.halfLength;
+    const double length = 2 * solid.halfLength;
     const double along =
         element.isPoint() || length == 0 ? 0 : std::clamp(onElement.y() / length + 0.5, 0.0, 1.0);
     const double gap = n.dot(pose.R * onElement + pose.t - onRigid) - element.radius;
-    touches_.push_back({index, rigid.body, along, onRigid, n, gap});
+    SoftTouch& touch = touches_.emplace_back(SoftTouch{index, rigid.body, along, onRigid, n, gap});
+    if (!rigid.isPart) continue;
+    touch.onBody = rigid.inBody.x + rigid.inBody.q * onRigid;
+    touch.normal = rigid.inBody.q * n;
   }
 }
 
@@ -148,9 +180,10 @@ std::span<const SoftTouch> SoftCollider::find(std::span<const SoftPair> pairs,
   takeMotion(start, end, margin);
   touches_.clear();
   for (const SoftPair& pair : pairs) {
-    const Rigid& rigid = rigids_[rigidOf_[pair.body]];
-    if (mayTouch(elements_[pair.element], rigid, start, end, margin)) {
-      look(pair.element, rigid, start, end, margin);
+    for (std::size_t i = rigidOf_[pair.body]; i < rigids_.size() && rigids_[i].body == pair.body;
+         ++i) {
+      if (!mayTouch(elements_[pair.element], rigids_[i], start, end, margin)) continue;
+      look(pair.element, rigids_[i], start, end, margin);
     }
   }
   return touches_;

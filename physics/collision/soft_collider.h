@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "physics/bodies/body.h"
+#include "physics/bodies/compound.h"
+#include "physics/collision/collider.h"
 #include "physics/collision/solid.h"
 
 namespace physics {
@@ -61,22 +63,31 @@ class SoftCollider {
  private:
   struct Rigid {
     BodyId body = 0;
+    bool isPart = false;
+    Pose inBody;
     collision::Solid solid;
+
+    Pose at(const Pose& ofBody) const { return isPart ? placed(ofBody, inBody) : ofBody; }
     Mat3 rotation = Mat3::Identity();  // at the start
     collision::Bounds path;            // from start to end
     Vec3 move = Vec3::Zero();
     double turn = 0;  // the furthest that turning moves a point of it [m]
   };
   void takeMotion(std::span<const Pose> start, std::span<const Pose> end, double margin);
+  void addRigid(BodyId body, const Shape& shape);
   bool isIgnored(const SoftElement& element, BodyId body) const;
   bool mayTouch(const SoftElement& element, const Rigid& rigid, std::span<const Pose> start,
                 std::span<const Pose> end, double margin) const;
   void look(int element, const Rigid& rigid, std::span<const Pose> start, std::span<const Pose> end,
             double margin);
 
+  // `swap`: the manifold has the rigid body first.
+  void take(int element, const collision::Solid& solid, const Rigid& rigid,
+            const collision::Relative& pose, const Manifold& manifold, bool swap);
+
   std::vector<SoftElement> elements_;
   std::vector<Rigid> rigids_;
-  std::vector<int> rigidOf_;                    // by body, -1: none
+  std::vector<int> rigidOf_;                    // by body, the first of its parts; -1: none
   std::vector<std::array<BodyId, 2>> ignored_;  // sorted
   std::vector<SoftTouch> touches_;
 };

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "physics/bodies/hull.h"
+#include "physics/collision/triangle_tree.h"
 
 namespace physics::collision {
 namespace {
@@ -86,6 +89,24 @@ void fill(Solid& s, const Plane& plane) {
   s.offset = plane.offset / plane.normal.norm();
 }
 
+void fill(Solid&, const Compound&) {
+  throw std::invalid_argument("a compound is several solids, not one");
+}
+
+void fill(Solid& s, const Triangles& triangles) {
+  s.kind = Kind::triangles;
+  s.triangles = std::make_shared<const TriangleTree>(triangles.mesh);
+  s.low = s.high = triangles.mesh->vertices.at(triangles.mesh->faces[0].vertices[0]);
+  for (const TriangleMesh::Face& face : triangles.mesh->faces) {
+    for (const int i : face.vertices) {
+      s.low = s.low.cwiseMin(triangles.mesh->vertices[i]);
+      s.high = s.high.cwiseMax(triangles.mesh->vertices[i]);
+    }
+  }
+  s.thickness = std::numeric_limits<double>::infinity();  // what is below is solid
+  s.coreRadius = boundingRadius(triangles);
+}
+
 Vec3 furthestVertex(const Hull& hull, const Vec3& d) {
   double best = d.dot(hull.vertices[0]);
   std::size_t index = 0;
@@ -105,7 +126,7 @@ Solid makeSolid(const Shape& shape) {
   massProperties(shape);  // its checks on sizes
   Solid solid;
   std::visit([&](const auto& s) { fill(solid, s); }, shape);
-  if (!solid.isPolyhedron()) solid.low = -solid.high;
+  if (!solid.isPolyhedron() && solid.kind != Kind::triangles) solid.low = -solid.high;
   if (solid.kind != Kind::plane) solid.size = boundingRadius(shape);
   return solid;
 }

@@ -1,5 +1,5 @@
 // A shape as the narrow phase sees it: a convex core (point, segment, cylinder or polyhedron),
-// rounded by a radius, with its edges and bounds worked out once.
+// rounded by a radius, with its edges and bounds worked out once; or a mesh of triangles.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 namespace physics::collision {
 
 // In the order of the pairs: a manifold's body a never has a later kind than its body b.
-enum class Kind { point, sphere, capsule, cylinder, box, convex, plane };
+enum class Kind { point, sphere, capsule, cylinder, box, convex, plane, triangles };
 
 // An edge of a polyhedron with the outward normals of its two faces.
 struct Edge {
@@ -19,6 +19,7 @@ struct Edge {
   Vec3 normal0 = Vec3::Zero(), normal1 = Vec3::Zero();
 };
 
+class TriangleTree;
 struct Solid {
   Kind kind = Kind::point;
   double size = 0;                    // bounding radius; 0 for point and plane
@@ -31,7 +32,10 @@ struct Solid {
   std::vector<Edge> edges;            // of a box or convex
   Vec3 normal = Vec3::UnitY();        // of a plane: normal . p <= offset is solid
   double offset = 0;
+  std::shared_ptr<const TriangleTree> triangles;  // triangle_tree.h
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // bounds in the body frame; of a plane: none
+
+  bool isSheet = false;  // a flat polyhedron, without an inside
 
   bool isPolyhedron() const { return kind == Kind::box || kind == Kind::convex; }
   bool isLine() const { return kind == Kind::capsule || kind == Kind::cylinder; }

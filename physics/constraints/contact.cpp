@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/constraints/contact_shapes.h"
 #include "physics/constraints/friction.h"
 
 namespace physics {
@@ -49,9 +48,9 @@ ContactPair fromManifold(const Manifold& manifold, const Bodies& bodies) {
   ContactPair pair;
   pair.a = manifold.a;
   pair.b = manifold.b;
-  const Shape &a = bodies.shape[pair.a], &b = bodies.shape[pair.b];
-  pair.radial = isBall(a) && isBall(b);
-  pair.carried = hasFaces(b);
+  pair.key = manifold.pair;
+  pair.radial = manifold.radial;
+  pair.carried = manifold.carried;
   pair.normal = pair.carried ? manifold.normal : Vec3(bodies.pose[pair.b].q * manifold.normal);
   pair.friction = frictionBetween(bodies.friction[pair.a], bodies.friction[pair.b]);
   pair.frictional = pair.friction.staticCoefficient > 0 || bodies.general;
@@ -68,16 +67,10 @@ void update(Contacts& contacts, std::span<const Manifold> manifolds, const Bodie
   std::size_t old = 0;
   for (const Manifold& manifold : manifolds) {
     ContactPair fresh = fromManifold(manifold, bodies);
-    const auto before = [&](const ContactPair& p) {
-      return p.a != fresh.a ? p.a < fresh.a : p.b < fresh.b;
-    };
-    while (old < contacts.previous.size() && before(contacts.previous[old])) ++old;
-    if (old < contacts.previous.size()) {
-      const ContactPair& kept = contacts.previous[old];
-      if (kept.a == fresh.a && kept.b == fresh.b) {
-        keepState(kept, fresh);
-        fresh.step = kept.step;
-      }
+    while (old < contacts.previous.size() && contacts.previous[old].key < fresh.key) ++old;
+    if (old < contacts.previous.size() && contacts.previous[old].key == fresh.key) {
+      keepState(contacts.previous[old], fresh);
+      fresh.step = contacts.previous[old].step;
     }
     contacts.pairs.push_back(fresh);
   }

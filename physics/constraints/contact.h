@@ -31,6 +31,7 @@ struct ContactPointState {
 
 struct ContactPair {
   BodyId a = 0, b = 0;
+  std::uint64_t key = 0;        // Manifold::pair
   bool radial = false;          // the normal joins the two cores (sphere on sphere)
   bool carried = false;         // the normal turns with body b (its face); else fixed in the world
   Vec3 normal = Vec3::UnitY();  // body frame of b when carried, else world
@@ -42,7 +43,7 @@ struct ContactPair {
 };
 
 struct Contacts {
-  std::vector<ContactPair> pairs, previous;  // sorted by (a, b)
+  std::vector<ContactPair> pairs, previous;  // sorted by key
 };
 
 bool isLoaded(const ContactPair& pair);   // some point of it pushes

@@ -79,7 +79,7 @@ void inspect(WorldState& w, double h) {
 
 // Bodies that a bounce has parted are free again.
 void freeBounced(WorldState& w) {
-  if (!w.settings.contact || w.settings.contact->restitution == 0) return;
+  if (!w.settings.contact || w.bodies.mostRestitution == 0) return;
   Stepper& stepper = w.stepper;
   const double speed = jumpSpeed(w, w.substepLength());
   for (const ContactPair& pair : w.contacts.pairs) {

@@ -90,12 +90,12 @@ void inspectKinds(WorldState& w) {
   });
 }
 
-const ContactPair* findPair(const std::vector<ContactPair>& pairs, BodyId a, BodyId b) {
-  const auto before = [](const ContactPair& pair, const std::array<BodyId, 2>& wanted) {
-    return std::array{pair.a, pair.b} < wanted;
+const ContactPair* findPair(const std::vector<ContactPair>& pairs, std::uint64_t key) {
+  const auto before = [](const ContactPair& pair, std::uint64_t wanted) {
+    return pair.key < wanted;
   };
-  const auto found = std::lower_bound(pairs.begin(), pairs.end(), std::array{a, b}, before);
-  return found != pairs.end() && found->a == a && found->b == b ? &*found : nullptr;
+  const auto found = std::lower_bound(pairs.begin(), pairs.end(), key, before);
+  return found != pairs.end() && found->key == key ? &*found : nullptr;
 }
 
 double speedGiven(const WorldState& w, const ContactPair* pair) {
@@ -108,14 +108,12 @@ void compareContacts(WorldState& w, double least) {
   Stepper& stepper = w.stepper;
   for (const ContactPair& pair : w.contacts.pairs) {
     const double now = speedGiven(w, pair);
-    if (!(now > least) || now <= 2 * speedGiven(w, findPair(w.contactsBefore, pair.a, pair.b)))
-      continue;
+    if (!(now > least) || now <= 2 * speedGiven(w, findPair(w.contactsBefore, pair.key))) continue;
     stepper.smooth[pair.a] = stepper.smooth[pair.b] = false;
   }
   for (const ContactPair& pair : w.contactsBefore) {
     const double before = speedGiven(w, pair);
-    if (!(before > least) ||
-        2 * speedGiven(w, findPair(w.contacts.pairs, pair.a, pair.b)) >= before) {
+    if (!(before > least) || 2 * speedGiven(w, findPair(w.contacts.pairs, pair.key)) >= before) {
       continue;
     }
     stepper.parted[pair.a] = stepper.parted[pair.b] = true;

@@ -180,7 +180,7 @@ void leaveGroups(WorldState& w) {
     for (const SoftContact& contact : group.softContacts) w.softContacts.push_back(contact);
   }
   std::sort(w.contacts.pairs.begin(), w.contacts.pairs.end(),
-            [](const auto& p, const auto& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+            [](const auto& p, const auto& q) { return p.key < q.key; });
 }
 
 }  // namespace physics

@@ -72,8 +72,8 @@ void stop(WorldState& w, BodyId i) {
 }
 
 template <class Pair>
-bool byBodies(const Pair& p, const Pair& q) {
-  return p.a != q.a ? p.a < q.a : p.b < q.b;
+bool byKey(const Pair& p, const Pair& q) {
+  return p.key < q.key;
 }
 
 // Contact pairs that `leave` from one sorted list to another.
@@ -84,7 +84,7 @@ void carry(std::vector<Pair>& from, std::vector<Pair>& to, F&& leaves) {
   const auto middle = static_cast<std::ptrdiff_t>(to.size());
   to.insert(to.end(), gone, from.end());
   from.erase(gone, from.end());
-  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byBodies<Pair>);
+  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byKey<Pair>);
 }
 
 template <class Pair>

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/base/rotation.h"
+#include "physics/bodies/compound.h"
 
 namespace physics {
 namespace {
@@ -13,6 +14,14 @@ double boxReach(const Vec3& size, const Vec3& d) { return 0.5 * size.dot(d.cwise
 
 double cylinderReach(double radius, double length, const Vec3& d) {
   return radius * std::hypot(d.x(), d.z()) + 0.5 * length * std::abs(d.y());
+}
+
+double compoundReach(const Parts& parts, const Vec3& d) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Part& part : parts.list) {
+    most = std::max(most, part.pose.x.dot(d) + reach(part.shape, part.pose.q, d));
+  }
+  return most;
 }
 
 double hullReach(const Hull& hull, const Vec3& d) {
@@ -35,6 +44,7 @@ BodyDef bodyOf(const Shape& shape, const Matter& matter, const Pose& pose) {
   def.shape = shape;
   def.mass = massOf(shape, matter);
   def.friction = matter.friction;
+  def.restitution = matter.restitution;
   def.pose = pose;
   return def;
 }
@@ -47,6 +57,7 @@ double reach(const Shape& shape, const Quat& q, const Vec3& direction) {
     return c->radius + 0.5 * c->length * std::abs(d.y());
   if (const auto* c = std::get_if<Cylinder>(&shape)) return cylinderReach(c->radius, c->length, d);
   if (const auto* convex = std::get_if<Convex>(&shape)) return hullReach(*convex->hull, d);
+  if (const auto* several = std::get_if<Compound>(&shape)) return compoundReach(*several->parts, d);
   return 0;
 }
 

@@ -19,16 +19,18 @@ inline constexpr double kMorePositive = std::numeric_limits<double>::min();  // 
 inline constexpr int kMostBodies = 100000;     // of a generator, and of a scene: some 200 MB
 inline constexpr double kWaterDensity = 1000;  // kg/m^3, the default
 
-// Mass or density of each body, and its friction.
+// Mass or density of each body, its friction and its restitution.
 struct Matter {
   std::optional<double> mass;     // kg
   std::optional<double> density;  // kg/m^3; neither: 1000 kg/m^3
   std::optional<Friction> friction;
+  std::optional<double> restitution;
   template <class V, class D>
   static void fields(V& v, D& d) {
     v(Field{"mass", Unit::kNone, false, kMorePositive}, d.mass);
     v(Field{"density", Unit::kNone, false, kMorePositive}, d.density);
     v(Field{"friction"}, d.friction);
+    v(Field{"restitution", Unit::kNone, false, 0, 1}, d.restitution);
   }
 };
 

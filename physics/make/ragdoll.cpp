@@ -36,6 +36,7 @@ void addBones(Figure& figure, const std::vector<Pose>& poses, const Vec3& pivot)
     body.shape = bone.shape;
     body.mass = bone.mass;
     body.friction = figure.def.friction;
+    body.restitution = figure.def.restitution;
     body.pose = poses[i];
     const auto& fixed = figure.def.fixed;
     if (std::find(fixed.begin(), fixed.end(), bone.name) != fixed.end()) {

@@ -55,6 +55,7 @@ struct RagdollDef {
   Velocity velocity;
   std::optional<RagdollDrive> drive;
   std::optional<Friction> friction;
+  std::optional<double> restitution;
   std::vector<std::string> fixed;  // bones that stay where they are
   Lattice copies;
   unsigned seed = 1;
@@ -65,6 +66,7 @@ struct RagdollDef {
     v(Field{"angular_velocity"}, d.velocity.w);
     v(Field{"drive"}, d.drive);
     v(Field{"friction"}, d.friction);
+    v(Field{"restitution", Unit::kNone, false, 0, 1}, d.restitution);
     v(Field{"fixed"}, d.fixed);
     v(Field{"copies"}, d.copies);
     v(Field{"seed"}, d.seed);

@@ -2,17 +2,28 @@
 #include "physics/make/soft_body.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "physics/make/tet_fill.h"
 
 namespace physics {
 namespace {
 
-TetMesh meshOf(const SoftBodyDef& def) {
-  require(def.box.has_value() != def.mesh.has_value(), "expected 'box' or 'mesh'");
-  if (def.box) {
-    const auto& [x, y, z] = def.box->cells;
-    requireCount((x + 1.0) * (y + 1.0) * (z + 1.0));
+TetMesh formOf(const SoftBodyDef& def) {
+  require(def.box.has_value() + def.ball.has_value() + def.mesh.has_value() == 1,
+          "expected one of 'box', 'ball' and 'mesh'");
+  if (def.mesh) return *def.mesh;
+  if (def.ball) {
+    requireCount(std::pow(def.ball->cells + 1.0, 3));
+    return ballMesh(def.ball->radius, def.ball->cells);
   }
-  TetMesh mesh = def.box ? boxMesh(def.box->size, def.box->cells) : *def.mesh;
+  const auto& [x, y, z] = def.box->cells;
+  requireCount((x + 1.0) * (y + 1.0) * (z + 1.0));
+  return boxMesh(def.box->size, def.box->cells);
+}
+
+TetMesh meshOf(const SoftBodyDef& def) {
+  TetMesh mesh = formOf(def);
   for (Vec3& node : mesh.nodes) node *= def.scale;
   orient(mesh);
   requireCount(static_cast<double>(mesh.nodes.size()));

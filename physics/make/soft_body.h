@@ -17,6 +17,16 @@ struct TetBox {  // a grid of cells, five tetrahedra to each
   }
 };
 
+struct TetBall {
+  double radius = 0.5;
+  int cells = 4;  // across
+  template <class V, class D>
+  static void fields(V& v, D& d) {
+    v(Field{"radius", Unit::kMetre, true, kMorePositive}, d.radius);
+    v(Field{"cells", Unit::kNone, false, 1, 100}, d.cells);
+  }
+};
+
 // Nodes that never move: those of one side, along the body's own axes.
 enum class SoftPins { kNone, kLeft, kRight, kBottom, kTop };
 inline std::span<const char* const> names(SoftPins) {
@@ -24,12 +34,13 @@ inline std::span<const char* const> names(SoftPins) {
   return kNames;
 }
 
-// The placement is the origin of the mesh, or the middle of the box.
+// The placement is the origin of the mesh, or the middle of the box or ball.
 struct SoftBodyDef {
   static constexpr const char* kWord = "soft_body";
   Placement place;
   double scale = 1;
-  std::optional<TetBox> box;  // or
+  std::optional<TetBox> box;    // or
+  std::optional<TetBall> ball;  // or
   std::optional<TetMesh> mesh;
   Vec3 startScale = Vec3::Ones();  // along the mesh's axes: it starts deformed by this,
                                    // 0: flat, below 0: inside out
@@ -46,6 +57,7 @@ struct SoftBodyDef {
     v(Field{"scale", Unit::kNone, false, kMorePositive}, d.scale);
     v(Field{"start_scale"}, d.startScale);
     v(Field{"box"}, d.box);
+    v(Field{"ball"}, d.ball);
     v(Field{"mesh"}, d.mesh);
     SoftMatter::fields(v, d.matter);
     v(Field{"radius", Unit::kMetre, false, kMorePositive}, d.radius);

@@ -8,13 +8,14 @@
 namespace physics {
 namespace {
 
-BodyId addFixed(World& world, const Shape& shape, const Pose& pose,
-                const std::optional<Friction>& friction) {
+template <class Def>
+BodyId addFixed(World& world, const Shape& shape, const Pose& pose, const Def& def) {
   BodyDef body;
   body.shape = shape;
   body.pose = pose;
   body.motion = Motion::kStatic;
-  body.friction = friction;
+  body.friction = def.friction;
+  body.restitution = def.restitution;
   return world.add(body);
 }
 
@@ -29,7 +30,7 @@ BodyId addFloor(World& world, const BowlDef& def) {
     }
   }
   const PrincipalHull hull = makeHull(points);
-  return addFixed(world, Convex{hull.hull}, def.place(hull.toPoints), def.friction);
+  return addFixed(world, Convex{hull.hull}, def.place(hull.toPoints), def);
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ std::vector<BodyId> add(World& world, const BowlDef& def) {
     const Vec3 middle(def.radius + 0.5 * along * cosine + 0.5 * def.thickness * sine,
                       def.thickness + 0.5 * along * sine - 0.5 * def.thickness * cosine, 0);
     const Box wall{Vec3(def.thickness, along, side)};
-    ids.push_back(addFixed(world, wall, def.place({turn * middle, turn * slope}), def.friction));
+    ids.push_back(addFixed(world, wall, def.place({turn * middle, turn * slope}), def));
   }
   return ids;
 }
@@ -60,8 +61,7 @@ std::vector<BodyId> add(World& world, const StairsDef& def) {
     const double tread = i == 0 ? def.landing : def.tread;
     const double height = (def.count - i) * def.rise;
     const Pose pose{Vec3(x + 0.5 * tread, 0.5 * height, 0), Quat::Identity()};
-    ids.push_back(
-        addFixed(world, Box{Vec3(tread, height, def.width)}, def.place(pose), def.friction));
+    ids.push_back(addFixed(world, Box{Vec3(tread, height, def.width)}, def.place(pose), def));
     x += tread;
   }
   return ids;

@@ -16,6 +16,7 @@ struct BowlDef {
   double slope = 1;        // rad
   double thickness = 0.1;  // m
   std::optional<Friction> friction;
+  std::optional<double> restitution;
   template <class V, class D>
   static void fields(V& v, D& d) {
     Placement::fields(v, d.place);
@@ -25,6 +26,7 @@ struct BowlDef {
     v(Field{"slope_degrees", Unit::kDegrees, false, 5, 90}, d.slope);
     v(Field{"thickness", Unit::kMetre, false, kMorePositive}, d.thickness);
     v(Field{"friction"}, d.friction);
+    v(Field{"restitution", Unit::kNone, false, 0, 1}, d.restitution);
   }
 };
 
@@ -37,6 +39,7 @@ struct StairsDef {
   double rise = 0.18, tread = 0.28, width = 2;  // m
   double landing = 1;                           // m, tread of the highest step
   std::optional<Friction> friction;
+  std::optional<double> restitution;
   template <class V, class D>
   static void fields(V& v, D& d) {
     Placement::fields(v, d.place);
@@ -46,6 +49,7 @@ struct StairsDef {
     v(Field{"width", Unit::kMetre, false, kMorePositive}, d.width);
     v(Field{"landing", Unit::kMetre, false, kMorePositive}, d.landing);
     v(Field{"friction"}, d.friction);
+    v(Field{"restitution", Unit::kNone, false, 0, 1}, d.restitution);
   }
 };
 

@@ -177,6 +177,10 @@ void undo(const Given& given, Bodies& bodies, BodyId body, const FreeFlight& fli
   }
 }
 
+double restitutionOf(const ContactPair& pair, const Bodies& bodies) {
+  return std::max(bodies.restitution[pair.a], bodies.restitution[pair.b]);
+}
+
 // The speed that a point shall have after a hit.
 double wanted(const Impact& impact, int k, double speed, double restitution, double threshold,
               double rise) {
@@ -254,8 +258,9 @@ void flyOn(const Impact& impact, int k, double gap, Bodies& bodies) {
 
 // Exact in time.
 bool strikeAlone(Impact& impact, int k, const std::vector<Given>& given, Bodies& bodies,
-                 double restitution, double threshold, const FreeFlight& flight) {
+                 double threshold, const FreeFlight& flight) {
   const ContactPair& pair = *impact.pair;
+  const double restitution = restitutionOf(pair, bodies);
   const double a = pair.points[k].normal.dot(accelerationApart(pair, bodies, flight));
   const double tau = impact.left[k], gap = (-restitution * impact.speed[k] + 0.5 * a * tau) * tau;
   if (!(gap > 0)) return false;
@@ -265,20 +270,20 @@ bool strikeAlone(Impact& impact, int k, const std::vector<Given>& given, Bodies&
   return true;
 }
 
-void strikeInTurn(std::vector<Impact>& impacts, Bodies& bodies, double restitution,
-                  double threshold) {
+void strikeInTurn(std::vector<Impact>& impacts, Bodies& bodies, double threshold) {
   bool struck = !impacts.empty();
   for (int sweep = 0; struck && sweep < kMostSweeps; ++sweep) {
     struck = false;
-    const double e = sweep < kElasticSweeps ? restitution : 0;
-    for (Impact& impact : impacts) struck = strike(impact, bodies, e, threshold, 0) || struck;
+    for (Impact& impact : impacts) {
+      const double e = sweep < kElasticSweeps ? restitutionOf(*impact.pair, bodies) : 0;
+      struck = strike(impact, bodies, e, threshold, 0) || struck;
+    }
   }
 }
 
 }  // namespace
 
-std::vector<bool> restitute(const Contacts& contacts, Bodies& bodies, double restitution,
-                            const FreeFlight& flight) {
+std::vector<bool> restitute(const Contacts& contacts, Bodies& bodies, const FreeFlight& flight) {
   const double threshold =
       std::max(flight.gravity ? 2 * flight.dt * flight.gravity->norm() : 0.0, kSlowest);
   std::vector<Impact> impacts = impactsOf(contacts, bodies, flight, threshold);
@@ -292,7 +297,7 @@ std::vector<bool> restitute(const Contacts& contacts, Bodies& bodies, double res
       for (const BodyId body : {pair.a, pair.b}) undo(given[body], bodies, body, flight);
     }
     const int k = impact.bounces ? alone(impact, given, bodies, flight) : -1;
-    impact.over = k >= 0 && strikeAlone(impact, k, given, bodies, restitution, threshold, flight);
+    impact.over = k >= 0 && strikeAlone(impact, k, given, bodies, threshold, flight);
     if (impact.over) jumped[impact.pair->a] = jumped[impact.pair->b] = true;
   }
   std::erase_if(impacts, [](const Impact& impact) { return impact.over; });
@@ -303,7 +308,7 @@ std::vector<bool> restitute(const Contacts& contacts, Bodies& bodies, double res
     undo(given[body], bodies, body, flight);
     jumped[body] = true;
   }
-  strikeInTurn(impacts, bodies, restitution, threshold);
+  strikeInTurn(impacts, bodies, threshold);
   return jumped;
 }
 

@@ -6,6 +6,7 @@
 //   c = -e v_i tau + a tau^2/2, v = -e v_i + a tau: the times of bounces are of second order too.
 // Bodies that touch hand an impact on: the normal impulses of the solve, which ends all approach at
 // once, are taken back, and pairs hit one another in turn until none approaches (Newton's cradle).
+// Of two bodies that hit each other the larger e counts.
 #pragma once
 
 #include <optional>
@@ -32,7 +33,6 @@ struct FreeFlight {
 // After the velocities are known. Contacts slower than twice what gravity gives in a substep do not
 // bounce: that keeps resting ones from buzzing.
 // Tells the bodies whose velocities jumped; empty: none did.
-std::vector<bool> restitute(const Contacts& contacts, Bodies& bodies, double restitution,
-                            const FreeFlight& flight);
+std::vector<bool> restitute(const Contacts& contacts, Bodies& bodies, const FreeFlight& flight);
 
 }  // namespace physics

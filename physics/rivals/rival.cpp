@@ -108,9 +108,8 @@ void advance(Bodies& bodies, double dt) {
 }
 
 void bounce(RivalModel& world, double dt) {
-  const Settings& settings = world.settings;
-  if (!settings.contact || settings.contact->restitution == 0) return;
-  restitute(world.contacts, world.bodies, settings.contact->restitution, world.flight(dt));
+  if (!world.settings.contact || world.bodies.mostRestitution == 0) return;
+  restitute(world.contacts, world.bodies, world.flight(dt));
 }
 
 }  // namespace physics

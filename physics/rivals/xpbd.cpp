@@ -149,9 +149,11 @@ void takeVelocities(Bodies& bodies, double dt) {
 // (30) compares h nu_d f_n, an impulse, with a velocity; here both are impulses. The approach is
 // that of X^t, before gravity: with it a ball at rest height would bounce higher than it fell.
 void solveVelocity(const Touch& touch, double normal, const ContactPointState* p, double dt,
-                   double restitution, double threshold, Bodies& bodies, Vec3& friction) {
+                   double threshold, Bodies& bodies, Vec3& friction) {
   if (normal == 0) return;
   const Vec3 v = velocityOf(touch, bodies.velocity);
+  const double restitution =
+      std::max(bodies.restitution[touch.bodies[0]], bodies.restitution[touch.bodies[1]]);
   const double vn = v.dot(touch.n), e = std::abs(vn) <= threshold ? 0 : restitution;
   const Vec3 vt = v - vn * touch.n;
   const double speed = vt.norm();
@@ -173,8 +175,7 @@ void solveVelocities(RivalModel& world, double dt, StepReport& report) {
   const double threshold = world.settings.gravity ? 2 * dt * world.settings.gravity->norm() : 0;
   forEachTouch(world, report,
                [&](const Touch& touch, double normal, Vec3& friction, const ContactPointState* p) {
-                 solveVelocity(touch, normal, p, dt, world.settings.contact->restitution, threshold,
-                               world.bodies, friction);
+                 solveVelocity(touch, normal, p, dt, threshold, world.bodies, friction);
                  return true;
                });
 }

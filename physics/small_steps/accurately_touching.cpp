@@ -182,7 +182,7 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
   for (double left = dt; left > 0;) {
     if (const double flown = flights < kMostPlaces ? flyToTouch(w, batch, left) : 0; flown > 0) {
       left = flown == left ? 0 : left - flown;
-      hits = w.settings.contact->restitution > 0;
+      hits = w.bodies.mostRestitution > 0;
       ++flights;
       continue;
     }

@@ -9,9 +9,8 @@ namespace physics {
 
 // At the start of a substep, with the velocities that nothing has stopped yet: gaps and approach.
 void SmallSteps::Impl::noteApproach(Model& w, Batch& batch, double h) {
-  const double restitution = w.settings.contact ? w.settings.contact->restitution : 0;
   batch.impacts.pairs.clear();
-  if (!(restitution > 0) || batch.contacts.empty()) return;
+  if (!(w.bodies.mostRestitution > 0) || batch.contacts.empty()) return;
   w.velocityBefore = w.bodies.velocity;
   for (const int k : batch.contacts) {
     ContactPair& pair = batch.impacts.pairs.emplace_back(pairOf(contacts[k], h));
@@ -48,7 +47,7 @@ void SmallSteps::Impl::bounce(Model& w, Batch& batch, double h) {
   for (const BodyId i : batch.bodies) b.inverse[i].inertia = masses[i].inertia;
   std::vector<Vec3> before(batch.slots.size());
   for (std::size_t s = 1; s < batch.slots.size(); ++s) before[s] = b.pose[batch.slots[s]].x;
-  restitute(batch.impacts, b, w.settings.contact->restitution, w.flight(h));
+  restitute(batch.impacts, b, w.flight(h));
   for (std::size_t s = 1; s < batch.slots.size(); ++s) {  // what was flown after the hit
     const Vec3 flown = b.pose[batch.slots[s]].x - before[s];
     for (int k = 0; k < 3; ++k) batch.motions[s].du[k] += static_cast<float>(flown[k]);

@@ -3,7 +3,6 @@
 
 #include <limits>
 
-#include "physics/constraints/contact_shapes.h"
 #include "physics/constraints/friction.h"
 
 namespace physics {
@@ -49,9 +48,9 @@ void match(const KeptContact& old, KeptContact& fresh) {
 void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
   fresh.a = found.a;
   fresh.b = found.b;
-  const Shape &a = bodies.shape[found.a], &b = bodies.shape[found.b];
-  fresh.radial = isBall(a) && isBall(b);
-  fresh.carried = hasFaces(b);
+  fresh.key = found.pair;
+  fresh.radial = found.radial;
+  fresh.carried = found.carried;
   fresh.normal = fresh.carried ? found.normal : Vec3(bodies.pose[found.b].q * found.normal);
   fresh.friction = frictionBetween(bodies.friction[found.a], bodies.friction[found.b]);
   fresh.count = found.count;
@@ -71,9 +70,8 @@ void keep(std::span<const KeptContact> previous, std::span<const Manifold> found
   std::size_t old = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Manifold& m = found[i];
-    const auto isBefore = [&](const KeptContact& c) { return c.a != m.a ? c.a < m.a : c.b < m.b; };
-    while (old < previous.size() && isBefore(previous[old])) ++old;
-    const bool goesOn = old < previous.size() && previous[old].a == m.a && previous[old].b == m.b;
+    while (old < previous.size() && previous[old].key < m.pair) ++old;
+    const bool goesOn = old < previous.size() && previous[old].key == m.pair;
     if (goesOn && !m.isNew && previous[old].carried) {
       now[i] = previous[old];
       continue;
@@ -97,6 +95,7 @@ ContactPair pairOf(const KeptContact& contact, double step) {
   ContactPair pair;
   pair.a = contact.a;
   pair.b = contact.b;
+  pair.key = contact.key;
   pair.radial = contact.radial;
   pair.carried = contact.carried;
   pair.normal = contact.normal;

@@ -13,6 +13,7 @@ namespace physics {
 
 struct KeptContact {
   BodyId a = 0, b = 0;
+  std::uint64_t key = 0;                // as in ContactPair
   bool radial = false, carried = false;  // as in ContactPair
   int count = 0;
   Vec3 normal = Vec3::UnitY();  // body frame of b when carried, else world
@@ -28,8 +29,8 @@ struct KeptContact {
   std::array<ContactPoint, Manifold::kMaxPoints> points;
 };
 
-// What the collider found, with the multipliers of the points that go on. Both are sorted by (a,
-// b).
+// What the collider found, with the multipliers of the points that go on. Both are sorted by their
+// key.
 void keep(std::span<const KeptContact> previous, std::span<const Manifold> found,
           const Bodies& bodies, std::vector<KeptContact>& now);
 

@@ -95,8 +95,8 @@ void displaceBySchemes(WorldState& w, int k, double h, StepReport& report) {
 
 void finish(WorldState& w, double h, StepReport& report) {
   profileScope("");
-  const double restitution = w.touches ? w.settings.contact->restitution : 0;
-  if (restitution > 0) w.velocityBefore = w.bodies.velocity;
+  const bool bounces = w.touches && w.bodies.mostRestitution > 0;
+  if (bounces) w.velocityBefore = w.bodies.velocity;
   if (isSecondOrder(w.settings)) {
     profileScope("schemes");
     finishSecondOrder(w.bodies, w.loads, w.settings.gravity);
@@ -105,9 +105,9 @@ void finish(WorldState& w, double h, StepReport& report) {
     finishVelocities(w.bodies, h);  // (43)-(46)
   }
   std::vector<bool> jumped;
-  if (restitution > 0) {
+  if (bounces) {
     profileScope("restitution");
-    jumped = restitute(w.contacts, w.bodies, restitution, w.flight(h));
+    jumped = restitute(w.contacts, w.bodies, w.flight(h));
   }
   if (isSecondOrder(w.settings)) {
     profileScope("schemes");

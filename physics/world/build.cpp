@@ -1,4 +1,5 @@
 // Making a World and adding bodies to it, with every check on what a caller gives.
+#include <algorithm>
 #include <cmath>
 
 #include "physics/world/impl.h"
@@ -35,6 +36,7 @@ void checkBody(const BodyDef& def) {
   if (def.motion != Motion::kDynamic) return;
   require(std::isfinite(def.mass) && def.mass > 0, "mass must be positive");
   require(!std::holds_alternative<Plane>(def.shape), "a plane cannot move by itself");
+  require(!std::holds_alternative<Triangles>(def.shape), "triangles cannot move by themselves");
   if (def.inertia) checkInertia(*def.inertia);
 }
 
@@ -79,6 +81,9 @@ BodyId World::add(const BodyDef& def) {
   const Friction friction = def.friction.value_or(standard);
   checkBody(def);
   checkFriction(friction);
+  const double restitution =
+      def.restitution.value_or(w.settings.contact ? w.settings.contact->restitution : 0);
+  require(restitution >= 0 && restitution <= 1, "restitution must lie between 0 and 1");
   require(def.substeps >= 1, "a body's substeps must be at least 1");
   Bodies& b = w.bodies;
   const BodyId id = b.size();
@@ -100,6 +105,8 @@ BodyId World::add(const BodyDef& def) {
   b.freeTurn.push_back(Vec3::Zero());
   b.shape.push_back(def.shape);
   b.friction.push_back(friction);
+  b.restitution.push_back(restitution);
+  b.mostRestitution = std::max(b.mostRestitution, restitution);
   if (def.motion != Motion::kStatic) b.active.push_back(id);
   w.turning += !inverse.isZero(0);
   if (inverse.x() != inverse.y() || inverse.y() != inverse.z()) b.anisotropic.push_back(id);

@@ -14,7 +14,7 @@ std::size_t bytesOf(const Bodies& b) {
   return bytesOf(b.pose) + bytesOf(b.start) + bytesOf(b.velocity) + bytesOf(b.inverse) +
          bytesOf(b.inverseInertia) + bytesOf(b.inertia) + bytesOf(b.mass) + bytesOf(b.motion) +
          bytesOf(b.shift) + bytesOf(b.freeTurn) + bytesOf(b.shape) + bytesOf(b.friction) +
-         bytesOf(b.isSoft) + bytesOf(b.active);
+         bytesOf(b.restitution) + bytesOf(b.isSoft) + bytesOf(b.active);
 }
 
 std::size_t bytesOf(const SecondOrder& s) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "physics/bodies/compound.h"
+
 namespace scenes {
 
 double thicknessOf(const physics::Shape& shape) {
@@ -13,6 +15,13 @@ double thicknessOf(const physics::Shape& shape) {
   if (const auto* capsule = std::get_if<physics::Capsule>(&shape)) return 2 * capsule->radius;
   if (const auto* cylinder = std::get_if<physics::Cylinder>(&shape)) {
     return std::min(2 * cylinder->radius, cylinder->length);
+  }
+  if (const auto* several = std::get_if<physics::Compound>(&shape)) {
+    double thinnest = kInfinity;
+    for (const physics::Part& part : several->parts->list) {
+      thinnest = std::min(thinnest, thicknessOf(part.shape));
+    }
+    return thinnest;
   }
   const auto* convex = std::get_if<physics::Convex>(&shape);
   if (convex == nullptr) return kInfinity;

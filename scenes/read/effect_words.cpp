@@ -61,12 +61,12 @@ void takeOut(const Survey& s, const Made& made, Effect& effect) {
   if (effect.without.empty()) effect.stays = "[[" + made.word + "]] is made with it";
 }
 
-std::vector<std::string> withoutFriction(const Survey& s) {
-  std::vector<std::string> set{"contact.friction=0"};
+std::vector<std::string> withoutSurface(const Survey& s, const std::string& key) {
+  std::vector<std::string> set{fmt::format("contact.{}=0", key)};
   for (const Member& word : s.tree.members) {
     for (std::size_t i = 0; i < word.value.items.size(); ++i) {
-      if (word.value.items[i].find("friction") == nullptr) continue;
-      set.push_back(fmt::format("{}.{}.friction=0", word.key, i));
+      if (word.value.items[i].find(key) == nullptr) continue;
+      set.push_back(fmt::format("{}.{}.{}=0", word.key, i, key));
     }
   }
   return set;

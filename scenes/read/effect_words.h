@@ -15,7 +15,7 @@ std::string whyNone(const std::string& kind);
 // What takes a kind out of the scene, or why it stays.
 void takeOut(const Survey& survey, const Made& made, Effect& effect);
 
-// No friction anywhere, whoever asked for it.
-std::vector<std::string> withoutFriction(const Survey& survey);
+// No "friction", or "restitution", anywhere, whoever asked for it.
+std::vector<std::string> withoutSurface(const Survey& survey, const std::string& key);
 
 }  // namespace scenes

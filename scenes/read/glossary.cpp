@@ -14,12 +14,12 @@ namespace {
 
 // A shape, a rotation and a friction are the same wherever they stand.
 std::string sharedName(const std::string& table) {
+  for (const char* word : {".rotation", ".quaternion", ".reference", ".orientation", ".target"}) {
+    if (table.ends_with(word)) return "rotation";
+  }
   for (const char* parent : {".shape.", ".shapes."}) {
     if (table.find(parent) == std::string::npos) continue;
     return fmt::format("shape{}", table.substr(table.rfind('.')));
-  }
-  for (const char* word : {".rotation", ".quaternion", ".reference", ".orientation", ".target"}) {
-    if (table.ends_with(word)) return "rotation";
   }
   return table.ends_with(".friction") ? "friction" : table;
 }

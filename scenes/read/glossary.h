@@ -101,7 +101,7 @@ std::string typeWord(const physics::Field& field) {
   } else if constexpr (std::is_same_v<T, physics::Shape>) {
     return "a shape";
   } else if constexpr (std::is_same_v<T, physics::TetMesh>) {
-    return "a .mesh file";
+    return "a .mesh file | { obj, cells }";
   } else if constexpr (std::is_enum_v<T>) {
     return choiceWord(names(T{}));
   } else if constexpr (requires { typename T::value_type; }) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "physics/make/matter.h"
+#include "scenes/read/read_parts.h"
 #include "scenes/read/read_shape.h"
 #include "scenes/read/recipe.h"
 
@@ -15,21 +16,17 @@ using physics::Motion;
 using physics::Unit;
 using physics::Vec3;
 
-physics::Pose readPose(TableReader& reader) {
-  physics::Pose pose;
-  reader(Field{"position", Unit::kPoint}, pose.x);
-  reader(Field{"quaternion"}, pose.q);
-  reader(Field{"rotation"}, pose.q);
-  reader.atMostOne("quaternion", "rotation");
-  return pose;
-}
-
-Motion readMotion(TableReader& reader, bool isPlane) {
-  bool fixed = isPlane, kinematic = false;
+Motion readMotion(TableReader& reader, const physics::Shape& shape) {
+  const bool isGround = physics::isGroundOnly(shape);
+  bool fixed = isGround, kinematic = false;
   reader(Field{"fixed"}, fixed);
   reader(Field{"kinematic"}, kinematic);
   if (fixed && kinematic) reader.failAt("kinematic", "expected 'fixed' or 'kinematic', not both");
-  if (isPlane && !fixed) reader.failAt("fixed", "expected true: a plane does not move");
+  if (isGround && !fixed) {
+    const bool isPlane = std::holds_alternative<physics::Plane>(shape);
+    reader.failAt("fixed", isPlane ? "expected true: a plane does not move"
+                                   : "expected true: ground of triangles does not move");
+  }
   return fixed ? Motion::kStatic : kinematic ? Motion::kKinematic : Motion::kDynamic;
 }
 
@@ -44,11 +41,14 @@ void readInertia(TableReader& reader, physics::BodyDef& def) {
   }
 }
 
-void readMass(TableReader& reader, physics::BodyDef& def) {
+physics::Matter readMatter(TableReader& reader) {
   physics::Matter matter;
   physics::Matter::fields(reader, matter);
   reader.atMostOne("mass", "density");
-  def.friction = matter.friction;
+  return matter;
+}
+
+void takeMass(const TableReader& reader, const physics::Matter& matter, physics::BodyDef& def) {
   if (def.motion != Motion::kDynamic && !matter.mass && !matter.density) return;
   try {
     def.mass = physics::massOf(def.shape, matter);
@@ -67,25 +67,56 @@ void readVelocity(TableReader& reader, physics::BodyDef& def) {
   }
 }
 
+// Of one shape or several: the shape in its body frame, and where the file has that frame.
+struct ReadShape {
+  PlacedShape placed;
+  std::optional<double> mass;                        // of several: the sum
+  std::vector<std::optional<render::Color>> colors;  // of several
+};
+
+ReadShape readShapes(TableReader& reader, const physics::Matter& matter) {
+  reader.exactlyOne("shape", "shapes");
+  if (!reader.has("shapes")) return {readShapeOf(reader), {}, {}};
+  const Value* value = reader.take("shapes");
+  const ReadParts parts = readParts(*value, reader.spot(Field{"shapes"}), matter);
+  return {{parts.made.compound, parts.made.toParts}, parts.made.mass, parts.colors};
+}
+
+void checkInertia(const TableReader& reader, const ReadShape& shape) {
+  if (!reader.has("inertia") || !shape.mass) return;
+  if (shape.placed.toFile.q.coeffs() == physics::Quat::Identity().coeffs()) return;
+  reader.failAt("inertia",
+                "expected none: the principal axes of these shapes are not those of the body");
+}
+
 }  // namespace
+
+physics::Pose readPose(TableReader& reader) {
+  physics::Pose pose;
+  reader(Field{"position", Unit::kPoint}, pose.x);
+  reader(Field{"quaternion"}, pose.q);
+  reader(Field{"rotation"}, pose.q);
+  reader.atMostOne("quaternion", "rotation");
+  return pose;
+}
 
 void readBody(TableReader& reader, Recipe& recipe) {
   const std::string name =
       readName(reader, fmt::format("body.{}", recipe.trial().world.bodyCount() - 1));
   physics::BodyDef def;
   reader(Field{"substeps", Unit::kNone, false, 1, 1e6}, def.substeps);
-  PlacedShape placed{def.shape, {}};
-  if (const Value* shape = reader.take("shape")) {
-    placed = readShape(*shape, reader.spot(Field{"shape"}));
-  } else {
-    reader.failHere("expected a value for 'shape'");
-  }
-  def.shape = placed.shape;
-  const physics::Pose pose = readPose(reader);
-  def.pose = {pose.x + pose.q * placed.toFile.x, (pose.q * placed.toFile.q).normalized()};
-  def.motion = readMotion(reader, std::holds_alternative<physics::Plane>(def.shape));
-  readMass(reader, def);
+  physics::Matter matter = readMatter(reader);
+  def.friction = matter.friction;
+  def.restitution = matter.restitution;
+  const ReadShape shape = readShapes(reader, matter);
+  if (shape.mass && !matter.mass) matter.mass = shape.mass;
+  def.shape = shape.placed.shape;
+  def.pose = physics::placed(readPose(reader), shape.placed.toFile);
+  def.pose.q.normalize();
+  def.motion = readMotion(reader, def.shape);
+  takeMass(reader, matter, def);
   readInertia(reader, def);
+  checkInertia(reader, shape);
   readVelocity(reader, def);
   std::optional<render::Color> color;
   readColor(reader, color);
@@ -98,6 +129,10 @@ void readBody(TableReader& reader, Recipe& recipe) {
     const render::Color own =
         moves ? familyColor(Pattern::kSingle, built.families++, 0) : fixedColor();
     built.name(id, name, color.value_or(own));
+    built.place(id, shape.placed.toFile);
+    for (std::size_t i = 0; i < shape.colors.size(); ++i) {
+      built.appearance.parts[id][i].color = shape.colors[i];
+    }
   });
 }
 

@@ -16,6 +16,9 @@ void readSoftBody(TableReader& reader, Recipe& recipe);
 
 // color = [r, g, b], "#rrggbb" or a hue's name; with a fourth part what shows through: [r, g, b, a]
 // or "#rrggbbaa", where 1 and ff are opaque.
+// Where a body or a part of one is: position, and quaternion or rotation.
+physics::Pose readPose(TableReader& reader);
+
 void readColor(TableReader& reader, std::optional<render::Color>& color);
 // The same of one value, where "transparent" may be a colour too.
 render::Color colorOf(const Value& value, const Spot& spot, bool orTransparent = false);

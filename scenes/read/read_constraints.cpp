@@ -1,7 +1,10 @@
 // Every kind of constraint by its word, read through its own list of fields.
+#include <string_view>
+
 #include "physics/make/hinge.h"
 #include "physics/make/prismatic.h"
 #include "physics/make/universal.h"
+#include "physics/make/weld.h"
 #include "scenes/read/recipe.h"
 
 namespace scenes {
@@ -18,6 +21,43 @@ void checkMovable(const TableReader& reader, const Recipe& recipe,
   reader.failAt(reader.has("body") ? "body" : "bodies", "expected at least one body that can move");
 }
 
+// What is given in the frames that the file has of bodies, in the bodies' own: a visitor of
+// `fields`. Points and axes share a unit; axes are told by their name.
+struct IntoBodies {
+  std::array<physics::Pose, 2> frames;  // the file's in the body's own
+
+  void operator()(const physics::Field& field, std::array<physics::Vec3, 2>& pair) const {
+    if (field.unit != physics::Unit::kBodyPoint) return;
+    const bool isAxis = std::string_view(field.name) == "axes";
+    for (int k = 0; k < 2; ++k) {
+      pair[k] = frames[k].q * pair[k] + (isAxis ? physics::Vec3::Zero() : frames[k].x);
+    }
+  }
+  void operator()(const physics::Field& field,
+                  std::optional<std::array<physics::Vec3, 2>>& pair) const {
+    if (pair) (*this)(field, *pair);
+  }
+  // Orientation of the second body in the first one's frame.
+  void operator()(const physics::Field&, std::optional<physics::Quat>& turn) const {
+    if (turn) turn = (frames[0].q * *turn * frames[1].q.conjugate()).normalized();
+  }
+  template <class T>
+  void operator()(const physics::Field&, T&) const {}
+};
+
+template <class Def>
+void intoBodies(const Recipe& recipe, Def& def) {
+  if constexpr (std::is_same_v<decltype(def.bodies), std::array<physics::BodyId, 2>>) {
+    const auto& known = recipe.trial().frames;
+    IntoBodies visitor;
+    for (int k = 0; k < 2; ++k) {
+      const auto found = known.find(def.bodies[k]);
+      if (found != known.end()) visitor.frames[k] = found->second;
+    }
+    Def::fields(visitor, def);
+  }
+}
+
 template <class Def>
 void readConstraint(TableReader& reader, Recipe& recipe) {
   Def def;
@@ -27,6 +67,7 @@ void readConstraint(TableReader& reader, Recipe& recipe) {
     if (reader.knows(a) && reader.knows(b)) reader.exactlyOne(a, b);
   }
   checkMovable(reader, recipe, def.bodies);
+  intoBodies(recipe, def);
   recipe.add(reader, [def](Built& built) {
     using physics::add;
     if constexpr (requires { built.world.add(def); }) {
@@ -55,7 +96,7 @@ constexpr Word kConstraints[] = {
     word<physics::PrismaticDef>(),     word<physics::UniversalDef>(),
     word<physics::PointOnLineDef>(),   word<physics::SlideLimitDef>(),
     word<physics::PerpendicularDef>(), word<physics::OrientationLockDef>(),
-    word<physics::ForceDef>(),
+    word<physics::ForceDef>(),         word<physics::WeldDef>(),
 };
 
 }  // namespace

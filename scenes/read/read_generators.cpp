@@ -7,6 +7,7 @@
 #include "scenes/read/read_arm.h"
 #include "scenes/read/read_body.h"
 #include "scenes/read/recipe.h"
+#include "scenes/read/whole_velocity.h"
 #include "scenes/view/palette.h"
 
 namespace scenes {
@@ -32,10 +33,15 @@ void readGenerator(TableReader& reader, Recipe& recipe) {
   reader.atMostOne("mass", "density");
   reader.atMostOne("shape", "length");
   reader.atMostOne("to", "direction");
+  WholeVelocity start;  // of what moves, and has none of each body
+  if constexpr (
+      requires { def.matter; } && !requires { def.velocity; })
+    start.read(reader);
   std::optional<render::Color> color;
   readColor(reader, color);
   recipe.add(reader, [=](Built& built) {
     const std::vector<physics::BodyId> bodies = physics::add(built.world, def);
+    start.give(built.world, bodies);
     built.nameAll(bodies, name, pattern, color);
     if constexpr (requires { def.end; }) markEnd(def, bodies.back(), name, color, built);
   });

@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
-#include "scenes/scene.h"
+#include "scenes/read/read_ground.h"
+#include "scenes/read/read_obj.h"
 
 namespace scenes {
 namespace {
@@ -56,6 +54,9 @@ PlacedShape readPlane(TableReader& reader) {
   return {plane, {}};
 }
 
+PlacedShape readMesh(TableReader& reader) { return {readTriangles(reader), {}}; }
+PlacedShape readField(TableReader& reader) { return {readHeights(reader), {}}; }
+
 PlacedShape readConvex(TableReader& reader) {
   std::string mesh;
   std::vector<Vec3> points;
@@ -65,7 +66,7 @@ PlacedShape readConvex(TableReader& reader) {
   reader(Field{"scale", Unit::kNone, false, kPositive}, scale);
   reader.exactlyOne("mesh", "points");
   if (reader.has("mesh")) {
-    points = readObjVertices(mesh, *reader.take("mesh"), reader.spot(Field{"mesh"}));
+    points = readObj(mesh, *reader.take("mesh"), reader.spot(Field{"mesh"})).vertices;
   }
   for (Vec3& point : points) point *= scale;
   const char* source = reader.has("mesh") ? "mesh" : "points";
@@ -87,49 +88,10 @@ struct ShapeWord {
 constexpr ShapeWord kShapes[] = {
     {"point", readPoint},     {"box", readBox},           {"sphere", readSphere},
     {"capsule", readCapsule}, {"cylinder", readCylinder}, {"convex", readConvex},
-    {"plane", readPlane},
+    {"plane", readPlane},     {"triangles", readMesh},    {"heights", readField},
 };
 
 }  // namespace
-
-std::string findMesh(const std::string& file, const Value& value, const Spot& spot) {
-  namespace fs = std::filesystem;
-  const fs::path beside = fs::path(folderOf(spot.context, value.place)) / file;
-  const fs::path inAssets = fs::path(assetFolder()) / "meshes" / file;
-  std::error_code ignored;
-  if (fs::is_regular_file(beside, ignored)) return beside.string();
-  if (fs::is_regular_file(inAssets, ignored)) return inAssets.string();
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(inAssets.parent_path(), ignored)) {
-    names.push_back(entry.path().filename().string());
-  }
-  fail(spot.context, value.place,
-       fmt::format("{}: no mesh '{}' beside the scene or in assets/meshes{}", spot.key, file,
-                   didYouMean(file, names)));
-}
-
-std::vector<Vec3> readObjVertices(const std::string& file, const Value& value, const Spot& spot) {
-  const std::string path = findMesh(file, value, spot);
-  std::ifstream in(path);
-  std::vector<Vec3> points;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    std::istringstream words(line);
-    std::string word;
-    words >> word;
-    if (word != "v") continue;
-    Vec3 point = Vec3::Zero();
-    if (!(words >> point.x() >> point.y() >> point.z()) || !point.allFinite()) {
-      throw InputError(fmt::format("{}:{}: expected 'v x y z', got '{}'", path, number, line));
-    }
-    points.push_back(point);
-  }
-  if (points.empty()) {
-    fail(spot.context, value.place,
-         fmt::format("{}: expected a mesh with vertices, got the empty '{}'", spot.key, file));
-  }
-  return points;
-}
 
 PlacedShape readShape(const Value& value, const Spot& spot) {
   const bool one = value.isTable() && value.members.size() == 1;
@@ -151,9 +113,15 @@ PlacedShape readShape(const Value& value, const Spot& spot) {
                    nearestOrAll(member.key, known)));
 }
 
+PlacedShape readShapeOf(TableReader& reader) {
+  const Value* shape = reader.take("shape");
+  if (shape == nullptr) reader.failHere("expected a value for 'shape'");
+  return readShape(*shape, reader.spot(Field{"shape"}));
+}
+
 void readValue(const Value& value, const Spot& spot, physics::Shape& out) {
   out = readShape(value, spot).shape;
-  if (std::holds_alternative<physics::Plane>(out)) {
+  if (physics::isGroundOnly(out)) {
     failExpected(spot, value, "a shape with a volume");
   }
 }

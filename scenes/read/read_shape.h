@@ -12,12 +12,6 @@ struct PlacedShape {
   physics::Pose toFile;
 };
 PlacedShape readShape(const Value& value, const Spot& spot);
-
-// The path of a mesh file, searched beside the scene file and then in assets/meshes.
-std::string findMesh(const std::string& file, const Value& value, const Spot& spot);
-
-// The vertices of an OBJ file.
-std::vector<physics::Vec3> readObjVertices(const std::string& file, const Value& value,
-                                           const Spot& spot);
+PlacedShape readShapeOf(TableReader& reader);  // from its key `shape`, which must be there
 
 }  // namespace scenes

@@ -8,6 +8,7 @@
 #include "physics/make/soft_body.h"
 #include "scenes/read/read_body.h"
 #include "scenes/read/recipe.h"
+#include "scenes/read/whole_velocity.h"
 
 namespace scenes {
 namespace {
@@ -22,6 +23,7 @@ constexpr const char* kLooks[] = {"surface", "net"};
 struct Look {
   bool net = false;
   std::optional<render::Color> color;
+  WholeVelocity start;  // of a rope or cloth
 };
 
 Look readLook(TableReader& reader) {
@@ -82,6 +84,7 @@ render::Color nameNodes(Built& built, const std::vector<BodyId>& nodes, const st
 void buildCloth(Built& built, const physics::ClothDef& def, const std::string& name,
                 const Look& look) {
   const physics::SoftParts parts = physics::add(built.world, def);
+  look.start.give(built.world, parts.nodes);
   const render::Color color = nameNodes(built, parts.nodes, name, look);
   const int wide = def.nodes.i, high = def.nodes.j;
   for (int k = 0; k < wide * high; ++k) {
@@ -116,6 +119,7 @@ void buildSoftBody(Built& built, const physics::SoftBodyDef& def, const std::str
 void buildRope(Built& built, const physics::RopeDef& def, const std::string& name,
                const Look& look) {
   const std::vector<BodyId> nodes = physics::add(built.world, def);
+  look.start.give(built.world, nodes);
   const render::Color color = nameNodes(built, nodes, name, look);
   built.alias(nodes.back(), name + ".end");
   if (look.net) return;
@@ -141,7 +145,8 @@ void readRope(TableReader& reader, Recipe& recipe) {
   checkMatter(reader);
   reader.exactlyOne("to", "direction");
   reader.atMostOne("length", "slack");
-  const Look look = readLook(reader);
+  Look look = readLook(reader);
+  look.start.read(reader);
   recipe.add(reader, [=](Built& built) { buildRope(built, def, name, look); });
 }
 
@@ -155,7 +160,8 @@ void readCloth(TableReader& reader, Recipe& recipe) {
   if (reader.has("shear_compliance") && !def.shear) {
     reader.failAt("shear_compliance", "expected shear = true as well");
   }
-  const Look look = readLook(reader);
+  Look look = readLook(reader);
+  look.start.read(reader);
   recipe.add(reader, [=](Built& built) { buildCloth(built, def, name, look); });
 }
 
@@ -163,7 +169,10 @@ void readSoftBody(TableReader& reader, Recipe& recipe) {
   physics::SoftBodyDef def;
   const std::string name = readName(reader, def.kWord);
   physics::SoftBodyDef::fields(reader, def);
-  reader.exactlyOne("box", "mesh");
+  reader.atMostOne("box", "mesh");
+  reader.atMostOne("box", "ball");
+  reader.atMostOne("ball", "mesh");
+  if (!def.box && !def.ball && !def.mesh) reader.failHere("expected 'box', 'ball' or 'mesh'");
   checkMatter(reader);
   checkEdges(reader, def.edge.edges);
   const Look look = readLook(reader);

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "scenes/read/read_shape.h"
+#include "physics/make/tet_fill.h"
+#include "scenes/read/read_obj.h"
+#include "scenes/read/table_reader.h"
 
 namespace scenes {
 namespace {
@@ -94,9 +96,28 @@ physics::TetMesh readMedit(const std::string& path) {
   return mesh;
 }
 
+// { obj = "gem.obj", cells = 10 }: tetrahedra inside of a closed surface.
+void readFilled(const Value& value, const Spot& spot, physics::TetMesh& out) {
+  TableReader reader(value, spot.key, spot.context);
+  std::string file;
+  int cells = 8;
+  reader(physics::Field{"obj", physics::Unit::kNone, true}, file);
+  reader(physics::Field{"cells", physics::Unit::kNone, false, 1, 100}, cells);
+  reader.finish();
+  const Value& named = *value.find("obj");
+  const ObjMesh surface = readObj(file, named, reader.spot({"obj"}));
+  try {
+    out = physics::fillMesh(surface.vertices, surface.triangles, cells);
+    orient(out);
+  } catch (const std::invalid_argument& error) {
+    fail(spot.context, named.place, fmt::format("{}.obj: {}: {}", spot.key, file, error.what()));
+  }
+}
+
 }  // namespace
 
 void readValue(const Value& value, const Spot& spot, physics::TetMesh& out) {
+  if (value.isTable()) return readFilled(value, spot, out);
   std::string file;
   readValue(value, spot, file);
   const std::string path = findMesh(file, value, spot);

@@ -5,30 +5,11 @@
 
 #include <cmath>
 
+#include "physics/bodies/compound.h"
 #include "physics/make/matter.h"
+#include "scenes/view/shape_mesh.h"
 
 namespace scenes {
-namespace {
-
-std::shared_ptr<const render::Mesh> meshOf(const physics::Shape& shape) {
-  const auto* convex = std::get_if<physics::Convex>(&shape);
-  if (convex == nullptr) return nullptr;
-  auto mesh = std::make_shared<render::Mesh>();
-  for (const physics::Hull::Face& face : convex->hull->faces) {
-    const auto first = static_cast<std::uint32_t>(mesh->positions.size());
-    for (const int vertex : face.vertices) {
-      mesh->positions.push_back(convex->hull->vertices[vertex].cast<float>());
-      mesh->normals.push_back(face.normal.cast<float>());
-    }
-    for (std::uint32_t i = 2; i < face.vertices.size(); ++i) {
-      mesh->indices.insert(mesh->indices.end(), {first, first + i - 1, first + i});
-    }
-  }
-  return mesh;
-}
-
-}  // namespace
-
 Built::Built(const physics::Settings& settings)
     : world(settings), names{"world"}, ids{{"world", physics::kWorldBody}} {
   appearance.colors.push_back(fixedColor());
@@ -43,9 +24,19 @@ void Built::name(physics::BodyId body, const std::string& bodyName, const render
   names.push_back(bodyName);
   appearance.colors.push_back(color);
   const physics::Shape& shape = world.bodies().shape[body];
-  auto mesh = meshOf(shape);
-  appearance.meshes.push_back(std::move(mesh));
+  appearance.meshes.push_back(meshOf(shape));
+  if (const auto* several = std::get_if<physics::Compound>(&shape)) {
+    for (const physics::Part& part : several->parts->list) {
+      appearance.parts[body].push_back({meshOf(part.shape), {}});
+    }
+  }
   appearance.hidden.push_back(false);
+}
+
+void Built::place(physics::BodyId body, const physics::Pose& toFile) {
+  const physics::Quat back = toFile.q.conjugate();
+  const physics::Pose frame{-(back * toFile.x), back};
+  if (!frame.x.isZero(0) || !frame.q.vec().isZero(0)) frames[body] = frame;
 }
 
 void Built::alias(physics::BodyId body, const std::string& second) {

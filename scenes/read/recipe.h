@@ -31,9 +31,16 @@ struct SoftTube {
   render::Color color;
 };
 
+// A part of a body of several shapes.
+struct PartLook {
+  std::shared_ptr<const render::Mesh> mesh;  // null but for convex ones
+  std::optional<render::Color> color;        // absent: the body's
+};
+
 struct Simulation::Appearance {
   std::vector<render::Color> colors;                        // by BodyId
   std::vector<std::shared_ptr<const render::Mesh>> meshes;  // by BodyId, null but for convex bodies
+  std::map<physics::BodyId, std::vector<PartLook>> parts;   // of bodies of several shapes
   std::vector<bool> hidden;                                 // by BodyId, drawn as part of these:
   std::vector<SoftSurface> surfaces;
   std::vector<SoftTube> tubes;
@@ -72,10 +79,14 @@ struct Built {
   Simulation::Appearance appearance;
   std::vector<PoseScript> scripts;
   std::vector<ArmScript> armScripts;
+  std::map<physics::BodyId, physics::Pose> frames;  // the file's frame of a body in its own, where
+                                                    // it is another
   int families = 0;  // hues given out so far
 
   // Names and colours the body; throws std::invalid_argument where the name is taken.
   void name(physics::BodyId body, const std::string& name, const render::Color& color);
+  // `toFile`: the body's own frame, of its centre of mass and principal axes, in the file's.
+  void place(physics::BodyId body, const physics::Pose& toFile);
   void alias(physics::BodyId body, const std::string& name);
   // "name.0", "name.1", ... in the colours of a family of its own, or all in one.
   void nameAll(const std::vector<physics::BodyId>& bodies, const std::string& name, Pattern pattern,

@@ -88,7 +88,7 @@ void checkExpectedBodies(const TableReader& root, const Scene& scene, const Buil
 }
 
 // The words that switch something on, in the order of the file.
-std::vector<std::string> effectsOf(const Value& root, const Scene& scene) {
+std::vector<std::string> effectsOf(const Value& root, const Scene& scene, const Built& built) {
   std::vector<std::string> effects;
   for (const Member& member : root.members) {
     const std::string& word = member.key;
@@ -100,7 +100,7 @@ std::vector<std::string> effectsOf(const Value& root, const Scene& scene) {
     if (word == "gravity" || generator || constraint) effects.push_back(word);
   }
   if (scene.settings.contact) effects.emplace_back("contact");
-  if (scene.settings.contact && scene.settings.contact->restitution > 0) {
+  if (scene.settings.contact && built.world.bodies().mostRestitution > 0) {
     effects.emplace_back("restitution");
   }
   if (scene.settings.sleep) effects.emplace_back("sleep");
@@ -144,7 +144,7 @@ Scene parseScene(const std::string& text, const std::string& path,
   readWords(root, recipe, bodyWords());
   readWords(root, recipe, constraintWords());
   checkExpectedBodies(root, scene, recipe.trial());
-  scene.effects = effectsOf(tree, scene);
+  scene.effects = effectsOf(tree, scene, recipe.trial());
   Scene::Content content = recipe.take();
   content.tree = std::move(tree);
   scene.content = std::make_shared<const Scene::Content>(std::move(content));

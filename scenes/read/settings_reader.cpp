@@ -68,13 +68,17 @@ void readSleep(TableReader& reader, physics::Settings& settings) {
   if (enabled) settings.sleep = sleep;
 }
 
-// A plane, or a body or generator with friction of its own: such a scene means contacts.
+// Ground, or a body or generator with friction or restitution of its own: such a scene means
+// contacts.
 bool asksForContact(const Value& root) {
   for (const Member& word : root.members) {
     for (const Value& element : word.value.items) {
       const Value* shape = element.find("shape");
       if (element.find("friction") != nullptr) return true;
-      if (shape != nullptr && shape->find("plane") != nullptr) return true;
+      for (const char* ground : {"plane", "triangles", "heights"}) {
+        if (shape != nullptr && shape->find(ground) != nullptr) return true;
+      }
+      if (element.find("restitution") != nullptr) return true;
     }
   }
   return false;

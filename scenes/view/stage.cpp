@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "physics/bodies/compound.h"
+#include "physics/bodies/triangles.h"
 #include "scenes/view/rods.h"
 
 namespace scenes {
@@ -35,17 +37,28 @@ Vec3 halfExtents(const physics::Shape& shape, const Eigen::Matrix3d& turn) {
   return Vec3::Constant(physics::boundingRadius(shape));
 }
 
-void include(const physics::Shape& shape, const physics::Pose& pose, MotionBounds& box) {
-  const Eigen::Matrix3d turn = pose.q.toRotationMatrix();
-  const auto* convex = std::get_if<physics::Convex>(&shape);
-  if (convex == nullptr) {
-    const Vec3 half = halfExtents(shape, turn);
-    return include(pose.x - half, pose.x + half, box);
-  }
-  for (const Vec3& vertex : convex->hull->vertices) {
-    const Vec3 at = pose.x + turn * vertex;
+void include(const std::vector<Vec3>& vertices, const physics::Pose& pose, MotionBounds& box) {
+  for (const Vec3& vertex : vertices) {
+    const Vec3 at = pose.x + pose.q * vertex;
     include(at, at, box);
   }
+}
+
+void include(const physics::Shape& shape, const physics::Pose& pose, MotionBounds& box) {
+  if (const auto* convex = std::get_if<physics::Convex>(&shape)) {
+    return include(convex->hull->vertices, pose, box);
+  }
+  if (const auto* ground = std::get_if<physics::Triangles>(&shape)) {
+    return include(ground->mesh->vertices, pose, box);
+  }
+  if (const auto* several = std::get_if<physics::Compound>(&shape)) {
+    for (const physics::Part& part : several->parts->list) {
+      include(part.shape, physics::placed(pose, part.pose), box);
+    }
+    return;
+  }
+  const Vec3 half = halfExtents(shape, pose.q.toRotationMatrix());
+  include(pose.x - half, pose.x + half, box);
 }
 
 // Where rods end at what does not move: a pendulum is seen with what it hangs from.

@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "physics/base/rotation.h"
+#include "physics/bodies/compound.h"
 #include "scenes/measure/metrics.h"
 #include "scenes/read/recipe.h"
 #include "scenes/view/camera.h"
 #include "scenes/view/overlays.h"
 #include "scenes/view/rods.h"
+#include "scenes/view/shape_mesh.h"
 #include "scenes/view/stage.h"
 
 namespace scenes {
@@ -27,6 +30,16 @@ bool isGround(const physics::Bodies& bodies, BodyId b) {
   return plane != nullptr && (bodies.pose[b].q * plane->normal).y() > 1 - 1e-9;
 }
 
+// Of all ground of triangles.
+double lowestGround(const physics::Bodies& bodies) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (BodyId b = 1; b < bodies.size(); ++b) {
+    const auto* ground = std::get_if<physics::Triangles>(&bodies.shape[b]);
+    if (ground != nullptr) lowest = std::min(lowest, lowestOf(*ground, bodies.pose[b]));
+  }
+  return lowest;
+}
+
 // The highest level plane, or else a stage a little below all that moves.
 render::Ground groundOf(const physics::Bodies& bodies, const MotionBounds& stage) {
   render::Ground ground;
@@ -37,7 +50,7 @@ render::Ground groundOf(const physics::Bodies& bodies, const MotionBounds& stage
     const double offset = std::get<physics::Plane>(bodies.shape[b]).offset;
     height = std::max(height, bodies.pose[b].x.y() + offset);
   }
-  if (!std::isfinite(height)) height = stage.low.y() - 0.1 * radius;
+  if (!std::isfinite(height)) height = std::min(stage.low.y() - 0.1 * radius, lowestGround(bodies));
   ground.height = static_cast<float>(height);
   ground.spacing = static_cast<float>(std::pow(10.0, std::round(std::log10(radius / 5))));
   return ground;
@@ -73,10 +86,34 @@ void setShape(const physics::Shape& shape, double pointDiameter, render::Instanc
   } else if (const auto* cylinder = std::get_if<physics::Cylinder>(&shape)) {
     rounded(Primitive::kCylinder, cylinder->radius, cylinder->length);
     instance.marked = true;
-  } else if (std::holds_alternative<physics::Convex>(shape)) {
+  } else if (std::holds_alternative<physics::Convex>(shape) ||
+             std::holds_alternative<physics::Triangles>(shape)) {
     instance.primitive = Primitive::kMesh;
   } else {
     rounded(Primitive::kSphere, 0.5 * pointDiameter, pointDiameter);
+  }
+}
+
+void drawBody(const physics::Shape& shape, const physics::Pose& pose,
+              const std::shared_ptr<const render::Mesh>& mesh, const render::Color& color,
+              bool turns, render::Picture& picture) {
+  render::Instance instance;
+  setShape(shape, 0.025 * picture.focusRadius, instance);
+  instance.marked = instance.marked && turns;
+  instance.position = pose.x.cast<float>();
+  instance.orientation = pose.q.cast<float>();
+  instance.mesh = mesh;
+  instance.color = color;
+  picture.instances.push_back(std::move(instance));
+}
+
+void drawParts(const physics::Compound& compound, const physics::Pose& pose,
+               const std::vector<PartLook>& looks, const render::Color& color, bool turns,
+               render::Picture& picture) {
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const physics::Part& part = compound.parts->list[i];
+    drawBody(part.shape, physics::placed(pose, part.pose), looks[i].mesh,
+             looks[i].color.value_or(color), turns, picture);
   }
 }
 
@@ -84,16 +121,19 @@ void drawBodies(const Simulation& simulation, const MotionBounds& stage, render:
   const physics::Bodies& bodies = simulation.world().bodies();
   const Simulation::Appearance& appearance = simulation.appearance();
   for (const BodyId b : drawnBodies(simulation)) {
-    render::Instance instance;
-    if (const auto* plane = std::get_if<physics::Plane>(&bodies.shape[b])) {
-      instance = plate(*plane, bodies.pose[b], stage);
-    } else {
-      setShape(bodies.shape[b], 0.025 * picture.focusRadius, instance);
-      instance.position = bodies.pose[b].x.cast<float>();
-      instance.orientation = bodies.pose[b].q.cast<float>();
-      if (bodies.motion[b] == Motion::kStatic) instance.marked = false;  // it never turns
+    const bool turns = bodies.motion[b] != Motion::kStatic;
+    if (const auto* several = std::get_if<physics::Compound>(&bodies.shape[b])) {
+      drawParts(*several, bodies.pose[b], appearance.parts.at(b), appearance.colors[b], turns,
+                picture);
+      continue;
     }
-    instance.mesh = appearance.meshes[b];
+    const auto* plane = std::get_if<physics::Plane>(&bodies.shape[b]);
+    if (plane == nullptr) {
+      drawBody(bodies.shape[b], bodies.pose[b], appearance.meshes[b], appearance.colors[b], turns,
+               picture);
+      continue;
+    }
+    render::Instance instance = plate(*plane, bodies.pose[b], stage);
     instance.color = appearance.colors[b];
     picture.instances.push_back(std::move(instance));
   }

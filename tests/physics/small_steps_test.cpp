@@ -11,7 +11,7 @@
 namespace physics::testing {
 namespace {
 
-Settings byDefault() {
+Settings asByDefault() {
   Settings settings;
   settings.gravity = Vec3(0, -9.81, 0);
   settings.contact = ContactSettings{};
@@ -30,7 +30,7 @@ double energyOf(const World& world) {
 }
 
 TEST(SmallSteps, HoldAWeightOfAThousandOnOne) {
-  World world(byDefault());
+  World world(asByDefault());
   addGround(world);
   addBody(world, Box{Vec3(1, 1, 1)}, Vec3(0, 0.5, 0), 1);
   const BodyId heavy = addBody(world, Box{Vec3(1, 1, 1)}, Vec3(0, 1.5, 0), 1000);
@@ -39,7 +39,7 @@ TEST(SmallSteps, HoldAWeightOfAThousandOnOne) {
 }
 
 TEST(SmallSteps, KeepATowerOfThirtyBoxesUpright) {
-  World world(byDefault());
+  World world(asByDefault());
   addGround(world);
   const BodyId first = addStack(world, 30);
   run(world, 300);
@@ -51,7 +51,7 @@ TEST(SmallSteps, KeepATowerOfThirtyBoxesUpright) {
 // Masses far apart neither open joints nor give energy.
 class HeavyEnd : public ::testing::TestWithParam<double> {};
 TEST_P(HeavyEnd, KeepsTheChainClosedAndItsEnergyBounded) {
-  Settings settings = byDefault();
+  Settings settings = asByDefault();
   settings.contact.reset();
   World world(settings);
   BodyId last = kWorldBody;
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(MassRatios, HeavyEnd, ::testing::Values(1, 100, 250, 30
 // not to know of it.
 template <class F>
 void expectSameAlone(int count, F&& build) {
-  World alone(byDefault()), accompanied(byDefault());
+  World alone(asByDefault()), accompanied(asByDefault());
   const BodyId i = build(alone, false), j = build(accompanied, true);
   run(alone, 120);
   run(accompanied, 120);
@@ -157,7 +157,7 @@ TEST(SmallSteps, AStackElsewhereDoesNotMoveAByteOfAChain) {
 
 // What a hit sets in motion meets what stood beside it within the same step.
 TEST(SmallSteps, AFastHitIsPassedOnWithinTheStep) {
-  Settings settings = byDefault();
+  Settings settings = asByDefault();
   settings.gravity.reset();
   World world(settings);
   const BodyId first = addBody(world, Sphere{0.5}, Vec3(0, 0, 0), 1);
@@ -174,7 +174,7 @@ TEST(SmallSteps, AFastHitIsPassedOnWithinTheStep) {
 }
 
 TEST(SmallSteps, AFreeBodyFliesAlongTheParabola) {
-  World world(byDefault());
+  World world(asByDefault());
   BodyDef def;
   def.shape = Box{Vec3(1, 2, 3)};
   def.velocity.v = Vec3(1, 2, 3);
@@ -186,7 +186,7 @@ TEST(SmallSteps, AFreeBodyFliesAlongTheParabola) {
 
 // Displacements are single precision, poses are not: a place does not matter.
 TEST(SmallSteps, AMillionMetresAwayAStackStandsAsWell) {
-  World world(byDefault());
+  World world(asByDefault());
   addGround(world);
   BodyId first = addStack(world, 5, 1e6);
   run(world, 300);
@@ -199,7 +199,7 @@ TEST(SmallSteps, AMillionMetresAwayAStackStandsAsWell) {
 
 // Two boxes a quarter inside each other come apart level, no faster than they may.
 TEST(SmallSteps, OverlapIsTakenBackLevel) {
-  Settings settings = byDefault();
+  Settings settings = asByDefault();
   settings.gravity.reset();
   World world(settings);
   addBody(world, Box{Vec3(1, 1, 1)}, Vec3(0, 0, 0), 1);
@@ -212,7 +212,7 @@ TEST(SmallSteps, OverlapIsTakenBackLevel) {
 }
 
 TEST(SmallSteps, AtAHitMomentumIsKept) {
-  Settings settings = byDefault();
+  Settings settings = asByDefault();
   settings.gravity.reset();
   World world(settings);
   const BodyId a = addBody(world, Box{Vec3(1, 1, 1)}, Vec3(0, 0, 0), 2);

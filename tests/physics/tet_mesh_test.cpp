@@ -6,6 +6,8 @@
 #include <functional>
 #include <map>
 
+#include "physics/base/rotation.h"
+#include "physics/make/tet_fill.h"
 #include "tests/physics/not_a_number.h"
 
 namespace physics::testing {
@@ -109,6 +111,71 @@ TEST(TetMesh, RefusesABoxWithoutSizeOrCells) {
   EXPECT_THROW(boxMesh(Vec3(1, 0, 1), {1, 1, 1}), std::invalid_argument);
   EXPECT_THROW(boxMesh(Vec3(1, kNaN, 1), {1, 1, 1}), std::invalid_argument);
   EXPECT_THROW(boxMesh(Vec3::Ones(), {1, 0, 1}), std::invalid_argument);
+}
+
+// A cube of 12 triangles.
+struct Surface {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<int, 3>> triangles;
+};
+Surface cube() {
+  Surface surface;
+  for (int i = 0; i < 8; ++i) surface.vertices.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+  const int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                           {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (const auto& [a, b, c, d] : sides) {
+    surface.triangles.push_back({a, b, c});
+    surface.triangles.push_back({a, c, d});
+  }
+  return surface;
+}
+
+TEST(FillMesh, OfACubeIsTheCube) {
+  const Surface surface = cube();
+  const TetMesh mesh = fillMesh(surface.vertices, surface.triangles, 4);
+  EXPECT_NEAR(volumeOf(mesh), 1, 1e-12);
+  EXPECT_EQ(mesh.tets.size(), 5u * 64);
+}
+
+// Turned against the grid its corners are cut, and its faces drawn to.
+TEST(FillMesh, OfATurnedCubeHasNearlyItsVolumeAndNoFlatTetrahedra) {
+  Surface surface = cube();
+  const Quat turn(Eigen::AngleAxisd(0.6, Vec3(1, 2, 0.5).normalized()));
+  for (Vec3& p : surface.vertices) p = turn * p;
+  TetMesh mesh = fillMesh(surface.vertices, surface.triangles, 10);
+  EXPECT_EQ(orient(mesh), 0);
+  EXPECT_NEAR(volumeOf(mesh), 1, 0.06);
+  int beside = 0;
+  for (const auto& triangle : skinOf(mesh)) {
+    for (const int corner : triangle) {
+      const Vec3 p = turn.conjugate() * mesh.nodes[corner];
+      const double off = (p - Vec3::Constant(0.5)).cwiseAbs().maxCoeff() - 0.5;
+      EXPECT_LT(off, 1e-9);
+      beside += off < -0.02 ? 1 : 0;
+    }
+  }
+  EXPECT_LT(beside, static_cast<int>(skinOf(mesh).size()) / 5);
+}
+
+TEST(FillMesh, RefusesASurfaceThatIsOpenOrInsideOut) {
+  Surface surface = cube();
+  surface.triangles.pop_back();
+  EXPECT_THROW(fillMesh(surface.vertices, surface.triangles, 4), std::invalid_argument);
+  surface = cube();
+  for (auto& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
+  EXPECT_THROW(fillMesh(surface.vertices, surface.triangles, 4), std::invalid_argument);
+}
+
+TEST(BallMesh, HasTheVolumeOfABallAsItsCellsGetSmall) {
+  const double ball = 4 * kPi / 3 * 0.125;
+  TetMesh mesh = ballMesh(0.5, 8);
+  EXPECT_EQ(orient(mesh), 0);
+  EXPECT_NEAR(volumeOf(mesh) / ball, 1, 0.04);
+  EXPECT_LT(std::abs(volumeOf(ballMesh(0.5, 16)) / ball - 1),
+            0.3 * std::abs(volumeOf(mesh) / ball - 1));
+  for (const auto& triangle : skinOf(mesh)) {
+    for (const int corner : triangle) EXPECT_NEAR(mesh.nodes[corner].norm(), 0.5, 1e-12);
+  }
 }
 
 }  // namespace

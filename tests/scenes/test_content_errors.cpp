@@ -53,7 +53,7 @@ TEST(SceneBody, RefusesAnUnknownShape) {
             "test.toml:2:11: body.shape: unknown shape 'spere'; did you mean 'sphere'?");
   EXPECT_EQ(errorOf("[[body]]\nshape = { banana = {} }\n"),
             "test.toml:2:11: body.shape: unknown shape 'banana'; expected point, box, sphere, "
-            "capsule, cylinder, convex or plane");
+            "capsule, cylinder, convex, plane, triangles or heights");
 }
 
 TEST(SceneBody, RefusesARadiusOfZero) {

@@ -13,6 +13,7 @@
 #include "physics/make/stack.h"
 #include "physics/make/stage.h"
 #include "physics/make/universal.h"
+#include "physics/make/weld.h"
 #include "physics/world.h"
 #include "tests/scenes/field_changer.h"
 #include "tests/scenes/field_text.h"
@@ -23,19 +24,18 @@ namespace {
 template <class Def>
 class Fields : public testing::Test {};
 
-using Definitions =
-    testing::Types<physics::BallSocketDef, physics::AxleDef, physics::ConeLimitDef,
-                   physics::TwistLimitDef, physics::DistanceDef, physics::SpringDef,
-                   physics::DriveDef, physics::MotorDef, physics::LinkDef, physics::RopeLengthDef,
-                   physics::VolumeDef, physics::BendDef, physics::HardeningSpringDef,
-                   physics::DragDef, physics::PanelDragDef, physics::MotorTorqueDef,
-                   physics::PointGravityDef, physics::ForceDef, physics::HingeDef,
-                   physics::PrismaticDef, physics::UniversalDef, physics::PointOnLineDef,
-                   physics::SlideLimitDef, physics::OrientationLockDef, physics::PerpendicularDef,
-                   physics::StackDef, physics::PyramidDef, physics::WallDef, physics::GridDef,
-                   physics::ChainDef, physics::BridgeDef, physics::ArchDef, physics::CardHouseDef,
-                   physics::DominoesDef, physics::BowlDef, physics::StairsDef, physics::RagdollDef,
-                   physics::RopeDef, physics::ClothDef, physics::SoftBodyDef, physics::ArmDef>;
+using Definitions = testing::Types<
+    physics::BallSocketDef, physics::AxleDef, physics::ConeLimitDef, physics::TwistLimitDef,
+    physics::DistanceDef, physics::SpringDef, physics::DriveDef, physics::MotorDef,
+    physics::LinkDef, physics::RopeLengthDef, physics::VolumeDef, physics::BendDef,
+    physics::HardeningSpringDef, physics::DragDef, physics::PanelDragDef, physics::MotorTorqueDef,
+    physics::PointGravityDef, physics::ForceDef, physics::HingeDef, physics::PrismaticDef,
+    physics::UniversalDef, physics::PointOnLineDef, physics::SlideLimitDef,
+    physics::OrientationLockDef, physics::PerpendicularDef, physics::StackDef, physics::PyramidDef,
+    physics::WallDef, physics::GridDef, physics::ChainDef, physics::BridgeDef, physics::ArchDef,
+    physics::CardHouseDef, physics::DominoesDef, physics::BowlDef, physics::WeldDef,
+    physics::StairsDef, physics::RagdollDef, physics::RopeDef, physics::ClothDef,
+    physics::SoftBodyDef, physics::ArmDef>;
 TYPED_TEST_SUITE(Fields, Definitions);
 
 TYPED_TEST(Fields, SurviveWritingAndReading) {

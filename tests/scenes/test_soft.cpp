@@ -137,7 +137,7 @@ TEST(SceneSoft, RefusesSoftBodiesThatMakeNoSense) {
   const auto refuses = [](const std::string& text, const std::string& message) {
     EXPECT_EQ(errorOf(text), "test.toml:" + message);
   };
-  refuses("[[soft_body]]\nname = \"s\"\n", "1:1: soft_body: expected 'box' or 'mesh'");
+  refuses("[[soft_body]]\nname = \"s\"\n", "1:1: soft_body: expected 'box', 'ball' or 'mesh'");
   refuses("[[soft_body]]\nbox = { size = [1, 1, 0], cells = [1, 1, 1] }\n",
           "2:23: soft_body.box.size: expected a number > 0 [m], got 0");
   refuses("[[soft_body]]\nbox = { size = [1, 1, 1], cells = [1, 0, 1] }\n",

@@ -74,5 +74,17 @@ TEST_F(SceneMesh, IsRefusedWhereItIsNoSolid) {
             kAt + "vertex 5 belongs to no tetrahedron, so that it has no mass");
 }
 
+TEST(SoftSolid, IsFilledFromAClosedObjFile) {
+  const Simulation simulation(
+      sceneOf("[[soft_body]]\nname = \"s\"\nmesh = { obj = \"pear.obj\", cells = 6 }\n"));
+  const physics::Bodies& b = simulation.world().bodies();
+  double mass = 0;
+  for (const double m : b.mass) mass += m;
+  EXPECT_NEAR(mass, 1000 * 0.3127, 30);  // of water, by the surface's own volume
+  EXPECT_EQ(errorOf("[[soft_body]]\nmesh = { obj = \"gem.obj\" }\n"),
+            "test.toml:2:16: soft_body.mesh.obj: gem.obj: triangles: at least one with an area is "
+            "needed");
+}
+
 }  // namespace
 }  // namespace scenes

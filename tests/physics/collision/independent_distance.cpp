@@ -64,6 +64,8 @@ void add(Core& core, const Convex& c, Prism) {
   for (const auto& [i, j] : c.hull->edges) core.edges.push_back(core.corners[i] - core.corners[j]);
 }
 void add(Core&, const Plane&, Prism) { throw std::logic_error("a plane is no core"); }
+void add(Core&, const Compound&, Prism) { throw std::logic_error("a compound is no core"); }
+void add(Core&, const Triangles&, Prism) { throw std::logic_error("triangles are no core"); }
 
 Core coreOf(const Shape& shape, const Pose& pose, Prism prism) {
   Core core;

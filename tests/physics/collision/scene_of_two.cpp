@@ -10,6 +10,12 @@ Vec3 furthest(const PointShape&, const Vec3&) { return Vec3::Zero(); }
 Vec3 furthest(const Plane&, const Vec3&) {
   throw std::logic_error("a plane has no furthest point");
 }
+Vec3 furthest(const Compound&, const Vec3&) {
+  throw std::logic_error("a compound has no furthest point here");
+}
+Vec3 furthest(const Triangles&, const Vec3&) {
+  throw std::logic_error("triangles have no furthest point here");
+}
 Vec3 furthest(const Sphere& s, const Vec3& d) { return s.radius * d.normalized(); }
 Vec3 furthest(const Box& box, const Vec3& d) {
   return 0.5 * box.size.cwiseProduct(Vec3((d.array() < 0).select(-Vec3::Ones(), Vec3::Ones())));
