@@ -56,6 +56,7 @@ struct JointShape {
   bool pulls = false;   // its arms are known
   bool hasWay = false;  // its error is in m, else in rad
   bool isGap = false, hasLinear = false, hasAngular = false;
+  bool stands = true;  // what it wants is a place, not a speed
 };
 // Each file that includes this has its own.
 static constexpr bool isLimit(const JointShape& shape) {

@@ -172,7 +172,7 @@ void JointPack<W>::setFree(int i, int l, bool free) {
 
 template <int W>
 bool JointPack<W>::givesWay(int i, int l) const {
-  if (rows_[i].regularisation.v[l] > 0) return true;
+  if (rows_[i].regularisation.v[l] > 0 || !topology_->shapes[i].stands) return true;
   if (topology_->shapes[i].seen != JointSeen::kByKind) return false;
   return states_[i].role[l] != JointRow::Role::kConstraint || hasAlpha(rows_[i], l);
 }

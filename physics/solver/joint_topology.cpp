@@ -27,6 +27,7 @@ JointShape shapeOf(const JointKind& kind, std::span<const BodyId> bodies,
   shape.bodyCount = kind.bodyCount;
   shape.seen = kind.seen;
   shape.pulls = kind.pulls;
+  shape.stands = kind.stands;
   shape.hasWay = kind.hasLinear || kind.seen == JointSeen::kGap;
   shape.isGap = kind.seen == JointSeen::kGap;
   shape.hasLinear = kind.hasLinear;

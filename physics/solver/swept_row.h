@@ -128,9 +128,10 @@ void change(const C& item, SweptRow<C>& swept, const typename Set<C>::Vector& er
   swept.lambda = total;
 }
 
+// Velocities are not its to hold; a motor's speed is not zero.
 template <class C>
 bool givesWay(const SweptRow<C>& swept) {
-  return Force<C> || !swept.alpha.isZero(0);
+  return Force<C> || !canStand<C>() || !swept.alpha.isZero(0);
 }
 
 template <class C>

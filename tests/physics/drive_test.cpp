@@ -1,6 +1,7 @@
 // Drive (128)-(132) and motor.
 #include <gtest/gtest.h>
 
+#include "physics/make/hinge.h"
 #include "physics/world.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/points.h"
@@ -155,6 +156,42 @@ TEST(Motor, BetweenTwoBodiesSharesTheTurnByTheirInertias) {
   world.step();
   EXPECT_NEAR(world.bodies().velocity[a].w.z(), -1, 1e-13);
   EXPECT_NEAR(world.bodies().velocity[b].w.z(), 4, 1e-13);
+}
+
+// A cart on wheels by the default method: its motors bring it to the speed of their rims.
+TEST(Motor, DrivesACartByTheDefault) {
+  Settings settings;
+  settings.gravity = Vec3(0, -9.81, 0);
+  settings.contact = ContactSettings{};
+  World world(settings);
+  BodyDef ground;
+  ground.shape = Plane{};
+  ground.motion = Motion::kStatic;
+  world.add(ground);
+  BodyDef cart;
+  cart.shape = Box{Vec3(2, 0.2, 0.8)};
+  cart.mass = 100;
+  cart.pose.x = Vec3(0, 0.3, 0);
+  const BodyId body = world.add(cart);
+  BodyId wheel = 0;
+  for (const double x : {-0.7, 0.7}) {
+    for (const double z : {-0.6, 0.6}) {
+      BodyDef def;
+      def.shape = Cylinder{0.3, 0.2};
+      def.mass = 10;
+      def.pose = {Vec3(x, 0.3, z), Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()))};
+      wheel = world.add(def);
+      HingeDef hinge;
+      hinge.bodies = {body, wheel};
+      hinge.at = def.pose.x;
+      hinge.axis = Vec3(0, 0, -1);
+      hinge.motor = HingeMotor{5, 40};
+      add(world, hinge);
+    }
+  }
+  for (int k = 0; k < 120; ++k) world.step();
+  EXPECT_NEAR(world.bodies().velocity[wheel].w.z(), -5, 0.01);
+  EXPECT_NEAR(world.bodies().velocity[body].v.x(), 5 * 0.3, 0.01);
 }
 
 }  // namespace
