@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "scenes/figure/figure_sheet.h"
+#include "scenes/models/read_model.h"
 #include "scenes/read/glossary.h"
 #include "scenes/read/recipe.h"
 #include "scenes/read/value.h"
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The folder that holds scenes/ and assets/: $DBD_HOME, else beside the program, else the source
-// tree.
+// tree, else where dbd is installed.
 fs::path home() {
   if (const char* given = std::getenv("DBD_HOME"); given != nullptr && *given != '\0') return given;
   std::error_code error;
@@ -26,7 +27,10 @@ fs::path home() {
   for (const fs::path& near : {program.parent_path(), program.parent_path() / "../share/dbd"}) {
     if (!error && fs::is_directory(near / "scenes/library", error)) return near;
   }
-  return DBD_SOURCE_FOLDER;
+  if (fs::is_directory(fs::path(DBD_SOURCE_FOLDER) / "scenes/library", error)) {
+    return DBD_SOURCE_FOLDER;
+  }
+  return DBD_DATA_FOLDER;
 }
 
 // `kind`: "scene" or "figure".
@@ -43,7 +47,7 @@ std::string readText(const std::string& path, const char* kind) {
 }
 
 bool isPath(const std::string& scene) {
-  return scene.find('/') != std::string::npos || scene.ends_with(".toml");
+  return scene.find('/') != std::string::npos || scene.ends_with(".toml") || isModelFile(scene);
 }
 
 std::string pathOf(const std::string& scene) {

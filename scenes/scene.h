@@ -108,6 +108,7 @@ struct Scene {
   std::vector<std::string> effects;  // words that switch something on, for `dbd list`
   std::string text;                  // the file's text, for run.json's hash
   std::vector<std::string> overrides;
+  std::vector<std::string> told;  // what of a model (MJCF, URDF) is not read, a line each
 
   struct Content;
   std::shared_ptr<const Content> content;

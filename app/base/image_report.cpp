@@ -35,7 +35,7 @@ bool sameSize(const render::Image& a, const render::Image& b) {
 std::string section(const ImagePair& pair, const std::filesystem::path& folder) {
   const std::string stem = fileStem(pair.name);
   std::string html = fmt::format("<section><h2>{}</h2><p>{}</p><div class=\"three\">\n",
-                                 escapeHtml(pair.name), escapeHtml(pair.comparison.reason));
+                                 escapeHtml(pair.name), escapeHtml(findings(pair)));
   if (exists(pair.want)) html += figure(pair.want, stem + "-want.png", "want", folder);
   if (exists(pair.got)) html += figure(pair.got, stem + "-got.png", "got", folder);
   if (exists(pair.want) && sameSize(pair.want, pair.got)) {
@@ -50,7 +50,7 @@ std::string table(const std::vector<ImagePair>& pairs) {
   for (const ImagePair& pair : pairs) {
     html += fmt::format("<tr><td>{}</td><td class=\"{}\">{}</td><td>{}</td><td>{}</td></tr>\n",
                         escapeHtml(pair.name), pair.passed ? "good" : "bad",
-                        pair.passed ? "ok" : "FAIL", escapeHtml(pair.comparison.reason),
+                        pair.passed ? "ok" : "FAIL", escapeHtml(findings(pair)),
                         escapeHtml(pair.remark));
   }
   return html + "</table>\n";
@@ -61,10 +61,12 @@ std::string table(const std::vector<ImagePair>& pairs) {
 bool exists(const render::Image& image) { return image.width > 0; }
 
 ImagePair comparePair(std::string name, render::Image want, render::Image got) {
-  ImagePair pair{std::move(name), std::move(want), std::move(got), {}, false, ""};
+  ImagePair pair{std::move(name), std::move(want), std::move(got), {}, false, "", {}};
   if (exists(pair.want) && exists(pair.got)) {
     pair.comparison = render::compareImages(pair.want, pair.got);
     pair.passed = pair.comparison.passed;
+    const bool looks = !pair.comparison.identical && sameSize(pair.want, pair.got);
+    if (looks) pair.flip = render::flip(pair.want, pair.got);
   } else {
     pair.comparison.reason =
         exists(pair.want) ? "the image is missing" : "there is nothing to compare with";
@@ -72,9 +74,15 @@ ImagePair comparePair(std::string name, render::Image want, render::Image got) {
   return pair;
 }
 
+std::string findings(const ImagePair& pair) {
+  if (!pair.flip) return pair.comparison.reason;
+  return fmt::format("{}; FLIP mean {:.2g}, 95 % below {:.2g}", pair.comparison.reason,
+                     pair.flip->mean, pair.flip->percentile95);
+}
+
 std::string describePair(const ImagePair& pair) {
-  return fmt::format("{:<5} {:<24} {}{}\n", pair.passed ? "ok" : "FAIL", pair.name,
-                     pair.comparison.reason, pair.remark.empty() ? "" : "; " + pair.remark);
+  return fmt::format("{:<5} {:<24} {}{}\n", pair.passed ? "ok" : "FAIL", pair.name, findings(pair),
+                     pair.remark.empty() ? "" : "; " + pair.remark);
 }
 
 std::filesystem::path writeImageReport(const std::string& title,

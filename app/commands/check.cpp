@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/base/console.h"
+#include "app/base/junit.h"
 #include "app/base/output_file.h"
 #include "app/commands/commands.h"
 #include "app/run/play.h"
@@ -18,6 +19,7 @@ struct CheckOptions {
   CommonOptions common;
   std::vector<std::string> scenes;
   bool all = false;
+  std::string junit;
 };
 
 std::string verdictTable(const scenes::Scene& scene,
@@ -43,7 +45,20 @@ std::string verdictTable(const scenes::Scene& scene,
 struct Checked {
   ExitCode code = ExitCode::kDone;
   std::size_t expectations = 0;
+  std::vector<JunitCase> cases{};
 };
+
+std::vector<JunitCase> casesOf(const scenes::Scene& scene,
+                               const std::vector<scenes::Checker::Verdict>& verdicts) {
+  std::vector<JunitCase> cases;
+  for (const scenes::Checker::Verdict& verdict : verdicts) {
+    const std::string name =
+        fmt::format("{} (line {})", verdict.expectation.metric, verdict.expectation.line);
+    cases.push_back(
+        {scene.name, name, verdict.holds ? "" : verdict.text, verdict.holds ? verdict.text : ""});
+  }
+  return cases;
+}
 
 Checked checkScene(const CheckOptions& options, const std::string& name) {
   const scenes::Scene scene = scenes::readScene(name, options.common.overrides);
@@ -72,7 +87,7 @@ Checked checkScene(const CheckOptions& options, const std::string& name) {
   flushOutput();
   const bool holds = std::all_of(verdicts.begin(), verdicts.end(),
                                  [](const auto& verdict) { return verdict.holds; });
-  return {holds ? end.code : ExitCode::kCheckFailed, verdicts.size()};
+  return {holds ? end.code : ExitCode::kCheckFailed, verdicts.size(), casesOf(scene, verdicts)};
 }
 
 ExitCode check(const CheckOptions& options) {
@@ -84,7 +99,9 @@ ExitCode check(const CheckOptions& options) {
     if (one.code == ExitCode::kInterrupted) return one.code;
     if (one.code != ExitCode::kDone) all.code = one.code;
     all.expectations += one.expectations;
+    all.cases.insert(all.cases.end(), one.cases.begin(), one.cases.end());
   }
+  writeJunit(options.junit, "dbd check", all.cases);
   if (all.expectations == 0)
     throw CheckFailed("check: nothing was checked, there is no [[expect]]");
   return all.code;
@@ -98,6 +115,8 @@ void addCheck(CLI::App& line, Action& action) {
       "check", "Run the [[expect]] of scenes; exit code 3 when one does not hold");
   command->add_option("SCENE", options->scenes, "Scenes of the library or .toml files");
   command->add_flag("--all", options->all, "Every scene of the library")->excludes("SCENE");
+  command->add_option("--junit", options->junit, "Also write the results as JUnit's XML")
+      ->type_name("F.xml");
   addCommon(*command, options->common);
   addHash(*command, options->common);
   command->get_option("--out")->description("Also write DIR/NAME/run.json with the verdicts");

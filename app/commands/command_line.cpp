@@ -74,6 +74,7 @@ ExitCode chooseAndRun(int argc, const char* const* argv) {
   addGolden(line, action);
   addCompare(line, action);
   addCheck(line, action);
+  addConvert(line, action);
   addDoctor(line, action);
   addGallery(line, action);
   addWords(line, action);

@@ -17,6 +17,7 @@ void addCheck(CLI::App& line, Action& action);
 void addDoctor(CLI::App& line, Action& action);
 void addFigures(CLI::App& line, Action& action);
 void addGallery(CLI::App& line, Action& action);
+void addConvert(CLI::App& line, Action& action);
 void addDiverge(CLI::App& line, Action& action);
 void addTrust(CLI::App& line, Action& action);
 void addWords(CLI::App& line, Action& action);

@@ -13,7 +13,7 @@
 #include "app/base/console.h"
 #include "app/commands/commands.h"
 #include "app/peers/peer.h"
-#include "render/renderer.h"
+#include "app/run/open_renderer.h"
 
 namespace app {
 
@@ -63,9 +63,9 @@ std::string cpuClass() {
 Finding findRenderer() {
   try {
     constexpr int kSide = 64;
-    render::Renderer renderer({kSide, kSide, render::Quality::kDraft, ""});
-    renderer.draw(render::Picture());
-    const render::Renderer::Info info = renderer.info();
+    const auto renderer = openRenderer({kSide, kSide, render::Quality::kDraft, ""});
+    renderer->draw(render::Picture());
+    const render::Renderer::Info info = renderer->info();
     return {"renderer", fmt::format("{}, OpenGL {}", info.renderer, info.version), true, ""};
   } catch (const std::exception& error) {
     return {"renderer", error.what(), false, "libosmesa6"};

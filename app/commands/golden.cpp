@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "app/base/console.h"
 #include "app/base/image_report.h"
 #include "app/base/interrupt.h"
+#include "app/base/junit.h"
 #include "app/base/output_file.h"
 #include "app/commands/commands.h"
 #include "app/golden/golden_set.h"
@@ -24,8 +26,9 @@ namespace fs = std::filesystem;
 struct GoldenOptions {
   CommonOptions common;
   std::vector<std::string> scenes;
-  std::string goldens, reason;
+  std::string goldens, reason, junit;
   bool strict = false;
+  int repeat = 1;
 };
 
 std::vector<std::string> chosenScenes(const GoldenOptions& options) {
@@ -102,6 +105,31 @@ ImagePair failedPair(const std::string& name, const std::string& problem) {
   return pair;
 }
 
+// The same scene simulated and drawn again: what differs from the first time is not steady.
+void checkSteady(const GoldenOptions& options, const scenes::Scene& scene,
+                 const GoldenRecord& record, const GoldenRun& first,
+                 std::vector<ImagePair>& pairs) {
+  std::vector<int> others(first.frames.size());
+  for (int k = 1; k < options.repeat && !interrupted(); ++k) {
+    const GoldenRun run =
+        drawGoldenFrames(scene, record.motion.bounds, options.common.progressMode());
+    for (std::size_t i = 0; i < std::min(run.frames.size(), first.frames.size()); ++i) {
+      const bool same = run.frames[i].image == first.frames[i].image &&
+                        run.frames[i].hashes == first.frames[i].hashes;
+      if (!same) ++others[i];
+    }
+  }
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    ImagePair& pair = pairs[pairs.size() - others.size() + i];
+    const std::string steady = others[i] == 0
+                                   ? fmt::format("steady in {} runs", options.repeat)
+                                   : fmt::format("not steady: {} of {} runs differ from the first",
+                                                 others[i], options.repeat);
+    pair.remark += (pair.remark.empty() ? "" : "; ") + steady;
+    if (others[i] != 0) pair.passed = false;
+  }
+}
+
 // What one scene's goldens come to; fewer than asked for where the user interrupts.
 std::vector<ImagePair> checkScene(const GoldenOptions& options, const std::string& name) {
   const scenes::Scene scene = scenes::readScene(name, options.common.overrides);
@@ -118,10 +146,23 @@ std::vector<ImagePair> checkScene(const GoldenOptions& options, const std::strin
   for (const GoldenFrame& now : run.frames) {
     pairs.push_back(compareFrame(options, scene, record, run, now, folder));
   }
+  if (options.repeat > 1) checkSteady(options, scene, record, run, pairs);
   for (std::size_t i = run.frames.size(); i < scene.golden.frames.size(); ++i) {
     pairs.push_back(failedPair(frameName(scene, scene.golden.frames[i]), run.problem));
   }
   return pairs;
+}
+
+// A pair's name is its scene's and its frame's.
+std::vector<JunitCase> casesOf(const std::vector<ImagePair>& pairs) {
+  std::vector<JunitCase> cases;
+  for (const ImagePair& pair : pairs) {
+    const std::size_t space = pair.name.rfind(' ');
+    const std::string told = findings(pair) + (pair.remark.empty() ? "" : "; " + pair.remark);
+    cases.push_back({pair.name.substr(0, space), pair.name.substr(space + 1),
+                     pair.passed ? "" : told, pair.passed ? told : ""});
+  }
+  return cases;
 }
 
 ExitCode checkGoldens(const GoldenOptions& options) {
@@ -136,6 +177,7 @@ ExitCode checkGoldens(const GoldenOptions& options) {
     if (interrupted()) return ExitCode::kInterrupted;
     flushOutput();
   }
+  writeJunit(options.junit, "dbd golden check", casesOf(pairs));
   if (pairs.empty())
     throw CheckFailed("golden check: nothing was compared, there are no [golden] frames");
   if (passed) return ExitCode::kDone;
@@ -224,6 +266,11 @@ void addGolden(CLI::App& line, Action& action) {
   CLI::App* check = addPart(*command, *options, "check",
                             "Draw the golden frames and compare; exit code 3 when one differs");
   check->add_flag("--strict", options->strict, "Fail too where only a hash moved");
+  check->add_option("--repeat", options->repeat, "Draw so often: which images are steady? [1]")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  check->add_option("--junit", options->junit, "Also write the results as JUnit's XML")
+      ->type_name("F.xml");
   check->get_option("--out")->description("Folder for the report of differences [out/golden]");
   CLI::App* update = addPart(*command, *options, "update", "Approve the pictures as they are now");
   update->add_option("--reason", options->reason, "Why they change; kept beside them")

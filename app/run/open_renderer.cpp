@@ -5,12 +5,15 @@
 #include <string>
 
 #include "app/commands/exit_code.h"
+#include "scenes/scene.h"
 
 namespace app {
 
 std::unique_ptr<render::Renderer> openRenderer(const render::RendererOptions& options) {
+  render::RendererOptions here = options;
+  if (here.fontFile.empty()) here.fontFile = scenes::assetFolder() + "/fonts/DejaVuSans.ttf";
   try {
-    return std::make_unique<render::Renderer>(options);
+    return std::make_unique<render::Renderer>(here);
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }

@@ -87,7 +87,9 @@ RunRecord makeRecord(const scenes::Scene& scene) {
                   {"overrides", scene.overrides},
                   {"effects", scene.effects}};
   record.settings = describeSettings(scene);
-  record.warnings = scenes::startWarnings(scene);
+  record.warnings = scene.told;
+  const std::vector<std::string> odd = scenes::startWarnings(scene);
+  record.warnings.insert(record.warnings.end(), odd.begin(), odd.end());
   return record;
 }
 

@@ -25,7 +25,7 @@ struct RunRecord {
   Json seconds = Json::object();         // per stage; runs of the same inputs add up
   Json accuracy;                         // how it was kept, where one is asked for; else null
   Json video;                            // the film and its frames; null: none
-  std::vector<std::string> warnings;     // scenes/measure/start_warnings.h
+  std::vector<std::string> warnings;     // Scene::told, scenes/measure/start_warnings.h
   bool finished = false;                 // all that was asked for is written
 
   void addSeconds(const std::string& stage, double more);

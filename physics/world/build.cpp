@@ -89,7 +89,7 @@ BodyId World::add(const BodyDef& def) {
   const BodyId id = b.size();
   const bool dynamic = def.motion == Motion::kDynamic;
   const Vec3 inertia =
-      dynamic && !isPoint(def.shape)
+      dynamic && (def.inertia || !isPoint(def.shape))
           ? def.inertia.value_or(def.mass * massProperties(def.shape).inertiaPerMass)
           : Vec3::Zero().eval();
   const Vec3 inverse = inertia.unaryExpr([](double i) { return i > 0 ? 1 / i : 0.0; });

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "scenes/models/read_model.h"
 #include "scenes/read/expand.h"
+#include "scenes/read/write_scene.h"
 
 namespace scenes {
 namespace {
@@ -15,11 +17,12 @@ namespace fs = std::filesystem;
 
 constexpr int kMostIncludes = 100;
 
+// Of a model that includes others some have one already.
 void noteFile(Value& value, const std::string& file) {
-  value.place.file = file;
+  if (value.place.file.empty()) value.place.file = file;
   for (Value& item : value.items) noteFile(item, file);
   for (Member& member : value.members) {
-    member.place.file = file;
+    if (member.place.file.empty()) member.place.file = file;
     noteFile(member.value, file);
   }
 }
@@ -43,13 +46,24 @@ void merge(Value& base, Value own, bool atTop) {
 
 struct Includer {
   const Context& context;
+  std::vector<std::string>& told;
   std::vector<std::string> open;  // the files that are being read, from the scene on
   std::string texts;
   int count = 0;
 
   void run(Value& tree);
   Value read(const Value& name);
+  Value parse(const std::string& text, const std::string& path);
 };
+
+Value Includer::parse(const std::string& text, const std::string& path) {
+  if (!isModel(text, path)) return parseToml(text, path);
+  std::vector<std::string> ofModel;
+  Value tree = readModel(text, path, ofModel);
+  told.insert(told.end(), ofModel.begin(), ofModel.end());
+  texts += tomlOf(tree, "");  // of the meshes and files that it has read, too
+  return tree;
+}
 
 Value Includer::read(const Value& name) {
   const auto refuse = [&](const std::string& message) {
@@ -69,7 +83,7 @@ Value Includer::read(const Value& name) {
   std::ostringstream text;
   text << in.rdbuf();
   texts += text.str();
-  Value tree = parseToml(text.str(), path.string());
+  Value tree = parse(text.str(), path.string());
   noteFile(tree, path.string());
   open.push_back(path.string());
   run(tree);
@@ -93,8 +107,8 @@ void Includer::run(Value& tree) {
 
 }  // namespace
 
-std::string includeFiles(Value& tree, const Context& context) {
-  Includer includer{context, {fs::path(context.path).lexically_normal().string()}, {}};
+std::string includeFiles(Value& tree, const Context& context, std::vector<std::string>& told) {
+  Includer includer{context, told, {fs::path(context.path).lexically_normal().string()}, {}};
   includer.run(tree);
   return includer.texts;
 }

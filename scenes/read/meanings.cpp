@@ -222,6 +222,8 @@ constexpr Meaning kOwn[] = {
     {"force.body", "", "on whom it acts"},
     {"force.force", "", "N, world coordinates"},
     {"drag.body", "", "whom it slows"},
+    {"no_contact.bodies", "", "of whom none touches another"},
+    {"no_contact.body", "", "that touches nothing, instead of bodies"},
     {"hinge.motor", "", "turns it at a speed"},
     {"prismatic.limits", "", "between which it slides"},
     {"friction.static", "", "until it slips"},

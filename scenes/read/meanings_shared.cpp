@@ -73,6 +73,7 @@ constexpr Meaning kShared[] = {
     {"orientation_lock", "[[tables]]", "a body keeps its orientation against another"},
     {"weld", "[[tables]]", "two bodies move as one"},
     {"force", "[[tables]]", "a constant force on a body"},
+    {"no_contact", "[[tables]]", "bodies that do not touch each other, or anything"},
     {"*.name", "text", "its name, for constraints, expectations and --set"},
     {"*.position", "", "where its origin is"},
     {"*.rotation", "", "how it is turned"},

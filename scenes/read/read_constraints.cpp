@@ -97,6 +97,7 @@ constexpr Word kConstraints[] = {
     word<physics::PointOnLineDef>(),   word<physics::SlideLimitDef>(),
     word<physics::PerpendicularDef>(), word<physics::OrientationLockDef>(),
     word<physics::ForceDef>(),         word<physics::WeldDef>(),
+    {"no_contact", readNoContact},
 };
 
 }  // namespace

@@ -131,6 +131,8 @@ struct Word {
 std::span<const Word> bodyWords();        // body, and every generator
 std::span<const Word> constraintWords();  // read after all bodies have their names
 
+void readNoContact(TableReader& reader, Recipe& recipe);  // read_pairs.cpp
+
 // The name of an element: its `name`, else its word.
 std::string readName(TableReader& reader, const std::string& otherwise);
 

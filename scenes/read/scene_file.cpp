@@ -7,9 +7,11 @@
 #include <filesystem>
 
 #include "scenes/measure/metrics.h"
+#include "scenes/models/read_model.h"
 #include "scenes/read/expand.h"
 #include "scenes/read/recipe.h"
 #include "scenes/read/settings_reader.h"
+#include "scenes/read/write_scene.h"
 #include "scenes/study/stability_case.h"
 
 namespace scenes {
@@ -97,7 +99,8 @@ std::vector<std::string> effectsOf(const Value& root, const Scene& scene, const 
     const auto constraints = constraintWords();
     const bool generator = word != "body" && std::any_of(bodies.begin(), bodies.end(), isIt);
     const bool constraint = std::any_of(constraints.begin(), constraints.end(), isIt);
-    if (word == "gravity" || generator || constraint) effects.push_back(word);
+    const bool takesOut = word == "no_contact";
+    if (word == "gravity" || generator || (constraint && !takesOut)) effects.push_back(word);
   }
   if (scene.settings.contact) effects.emplace_back("contact");
   if (scene.settings.contact && built.world.bodies().mostRestitution > 0) {
@@ -116,6 +119,21 @@ physics::Settings checkedSettings(const TableReader& root, const physics::Settin
   return settings;
 }
 
+// The words of a scene file, or those that a model becomes, with what it includes.
+Value readTree(const std::string& text, const Context& context, Scene& scene) {
+  Value tree;
+  if (isModel(text, context.path)) {
+    tree = readModel(text, context.path, scene.told);
+    // What it is made of is in other files as well.
+    scene.text = tomlOf(tree, std::filesystem::path(context.path).parent_path().string());
+  } else {
+    tree = parseToml(text, context.path);
+    scene.text = text;
+  }
+  scene.text += includeFiles(tree, context, scene.told);
+  return tree;
+}
+
 }  // namespace
 
 int Scene::frameCount() const { return static_cast<int>(std::lround(duration * fps)) + 1; }
@@ -123,15 +141,13 @@ int Scene::frameCount() const { return static_cast<int>(std::lround(duration * f
 Scene parseScene(const std::string& text, const std::string& path,
                  std::span<const std::string> overrides, Glossary* glossary) {
   Context context{path, nullptr, glossary};
-  Value tree = parseToml(text, path);
-  const std::string included = includeFiles(tree, context);
+  Scene scene;
+  Value tree = readTree(text, context, scene);
   const auto others = setParameters(tree, applyStability(tree, path, overrides));
   expand(tree, context);
   for (const std::string& setting : others) applyOverride(tree, setting);
-  Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   scene.path = path;
-  scene.text = text + included;
   scene.overrides.assign(overrides.begin(), overrides.end());
   TableReader root(tree, "", context);
   checkWords(root);

@@ -139,6 +139,8 @@ std::size_t lengthOfLetter(std::string_view bytes) {
   return code < kLeast[length] || code > 0x10ffff || isHalf ? 0 : length;
 }
 
+}  // namespace
+
 // A column is a letter, as toml++ counts.
 void checkLetters(const std::string& text, const std::string& path) {
   int line = 1, column = 1;
@@ -154,8 +156,6 @@ void checkLetters(const std::string& text, const std::string& path) {
     i += length;
   }
 }
-
-}  // namespace
 
 Value parseToml(const std::string& text, const std::string& path) {
   checkLetters(text, path);

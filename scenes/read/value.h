@@ -50,6 +50,9 @@ std::optional<Value> takeMember(Value& table, const std::string& key);
 // "-3", "'ball'", "a table": how an error names a value.
 std::string describe(const Value& value);
 
+// Throws InputError("file:line:col: expected UTF-8 ...") where `text` is none.
+void checkLetters(const std::string& text, const std::string& path);
+
 // Throws InputError("file:line:col: expected ...") where `text` is not TOML.
 Value parseToml(const std::string& text, const std::string& path);
 

@@ -106,17 +106,15 @@ bool beginsAfter(const Value& expectation, double end) {
 
 }  // namespace
 
-std::string textOf(const Scene& scene) {
-  const Writer writer(std::filesystem::path(scene.path).parent_path());
+std::string tomlOf(const Value& tree, const std::string& folder) {
+  const Writer writer(folder);
   std::string values, tables;
-  for (const Member& member : scene.content->tree.members) {
+  for (const Member& member : tree.members) {
     const Value& value = member.value;
-    if (member.key == "golden") continue;
     if (value.isTable()) {
       tables += fmt::format("\n[{}]\n{}", keyText(member.key), writer.lines(value));
     } else if (isTables(value)) {
       for (const Value& item : value.items) {
-        if (member.key == "expect" && beginsAfter(item, scene.duration)) continue;
         tables += fmt::format("\n[[{}]]\n{}", keyText(member.key), writer.lines(item));
       }
     } else {
@@ -124,6 +122,17 @@ std::string textOf(const Scene& scene) {
     }
   }
   return values + tables;
+}
+
+std::string textOf(const Scene& scene) {
+  Value tree = scene.content->tree;
+  takeMember(tree, "golden");
+  if (Value* expectations = tree.find("expect")) {
+    std::erase_if(expectations->items,
+                  [&](const Value& item) { return beginsAfter(item, scene.duration); });
+    if (expectations->items.empty()) takeMember(tree, "expect");
+  }
+  return tomlOf(tree, std::filesystem::path(scene.path).parent_path().string());
 }
 
 }  // namespace scenes

@@ -117,10 +117,15 @@ void drawParts(const physics::Compound& compound, const physics::Pose& pose,
   }
 }
 
+bool isDrawn(const Simulation& simulation, BodyId b) {
+  return !isGround(simulation.world().bodies(), b) && !simulation.appearance().hidden[b];
+}
+
 void drawBodies(const Simulation& simulation, const MotionBounds& stage, render::Picture& picture) {
   const physics::Bodies& bodies = simulation.world().bodies();
   const Simulation::Appearance& appearance = simulation.appearance();
-  for (const BodyId b : drawnBodies(simulation)) {
+  for (BodyId b = 1; b < bodies.size(); ++b) {
+    if (!isDrawn(simulation, b)) continue;
     const bool turns = bodies.motion[b] != Motion::kStatic;
     if (const auto* several = std::get_if<physics::Compound>(&bodies.shape[b])) {
       drawParts(*several, bodies.pose[b], appearance.parts.at(b), appearance.colors[b], turns,
@@ -198,7 +203,9 @@ std::vector<BodyId> drawnBodies(const Simulation& simulation) {
   const physics::Bodies& bodies = simulation.world().bodies();
   std::vector<BodyId> drawn;
   for (BodyId b = 1; b < bodies.size(); ++b) {
-    if (!isGround(bodies, b) && !simulation.appearance().hidden[b]) drawn.push_back(b);
+    if (!isDrawn(simulation, b)) continue;
+    const auto* several = std::get_if<physics::Compound>(&bodies.shape[b]);
+    drawn.insert(drawn.end(), several == nullptr ? 1 : several->parts->list.size(), b);
   }
   return drawn;
 }

@@ -33,11 +33,10 @@ struct ViewOptions {
   double ink = 1;                   // how many times larger lines, dots and letters are drawn
   double opacity = 1;               // of the bodies
   bool ground = true;
-  int stampLetters =
-      0;  // length of the text that will stand at the upper left; letters keep off it
+  int stampLetters = 0;  // of the text at the upper left, which letters keep off
 };
 
-// The bodies that a picture begins with, an instance each; rods and tubes come after them.
+// The body of each instance that a picture begins with; rods and tubes come after them.
 std::vector<physics::BodyId> drawnBodies(const Simulation& simulation);
 
 // The picture of the simulation's present frame. `history`: metrics of frames 0..now, for the HUD.

@@ -103,6 +103,7 @@ const std::map<std::string, std::vector<std::string>> kPackages = {
     {"libdeflate", {"render/png", "app/base/npz", "app/take/numbers"}},
     {"tiny_gltf", {"app/take/gltf"}},
     {"toml++/", {"scenes/read/toml.cpp"}},
+    {"pugixml", {"scenes/models/xml.cpp"}},
     {"muParser", {"scenes/read/expression.cpp"}},
     {"cairo", {"app/figure/vector_page.cpp"}},
     {"CLI/", {"app/"}},

@@ -102,6 +102,36 @@ TEST_F(Golden, NumbersThatEndFailAndTheOthersAreChecked) {
   EXPECT_NE(check.output.find("ok    drop 00006"), std::string::npos) << check.output;
 }
 
+TEST_F(Golden, RepeatingTellsWhichImagesAreSteady) {
+  ASSERT_EQ(golden("update --reason 'the first'").code, 0);
+  const Outcome check = golden("check --repeat 3");
+  EXPECT_EQ(check.code, 0) << check.errors;
+  EXPECT_NE(check.output.find("drop 00006               identical; steady in 3 runs"),
+            std::string::npos)
+      << check.output;
+  EXPECT_EQ(golden("check --repeat 0").code, 2);
+}
+
+// What somebody with scenes of their own has in continuous integration.
+TEST_F(Golden, ARepositoryOfScenesOfItsOwnIsChecked) {
+  fs::create_directories(folder / "scenes");
+  fs::rename(folder / "drop.toml", folder / "scenes" / "drop.toml");
+  const std::string more = " scenes/*.toml --goldens goldens --progress none";
+  ASSERT_EQ(run("golden update --reason 'the first'" + more).code, 0);
+  ASSERT_EQ(run("golden check --junit golden.xml" + more).code, 0);
+  const std::string passed = readBytes(folder / "golden.xml");
+  EXPECT_NE(passed.find("tests=\"2\" failures=\"0\""), std::string::npos) << passed;
+  EXPECT_NE(passed.find("<testcase classname=\"drop\" name=\"00006\">"), std::string::npos);
+  const Outcome moved =
+      run("golden check --junit golden.xml --set body.ball.velocity=[1.3,0,0]" + more);
+  EXPECT_EQ(moved.code, 3);
+  EXPECT_NE(moved.output.find("FLIP mean"), std::string::npos) << moved.output;
+  const std::string failed = readBytes(folder / "golden.xml");
+  EXPECT_NE(failed.find("failures=\"1\""), std::string::npos) << failed;
+  EXPECT_NE(failed.find("<failure message="), std::string::npos) << failed;
+  EXPECT_TRUE(fs::exists(folder / "out" / "golden" / "index.html"));
+}
+
 TEST_F(Golden, CompareTellsEqualFromDifferentImagesAndFolders) {
   ASSERT_EQ(golden("update --reason 'the first'").code, 0);
   ASSERT_EQ(

@@ -24,10 +24,16 @@ const std::map<std::string, std::string> kShort = {
     {"race", " --seconds 0.05 --size 300x120 --quality draft --progress none"},
     {"study", " --quick --progress none"},
     {"words", ""},
+    {"convert", ""},
     {"completion", ""},
     {"trust", " --set duration=0.05 --size 96x64 --quality draft --progress none"},
     {"diverge", " --size 96x64 --quality draft --progress none"},
 };
+
+constexpr const char* kArm =
+    "<robot name='arm'><link name='base'/><link name='arm'>"
+    "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link>"
+    "<joint name='j' type='continuous'><parent link='base'/><child link='arm'/></joint></robot>";
 
 struct Blocks {
   std::vector<std::string> commands, scenes, figures, studies;
@@ -66,6 +72,7 @@ TEST_F(Readme, EveryCommandRuns) {
   fs::copy_file(picture, folder / "A" / "00000.png");
   fs::copy_file(picture, folder / "B" / "00000.png");
   const std::vector<std::string> commands = readmeBlocks().commands;
+  writeText(folder / "arm.urdf", kArm);
   ASSERT_GE(commands.size(), kShort.size());
   for (std::string command : commands) {
     command.erase(command.find_last_not_of(' ') + 1);

@@ -1,4 +1,4 @@
-// Mutations of scene files.
+// Mutations of scene files and of models.
 #include "tests/fuzz/mutate.h"
 
 #include <algorithm>
@@ -124,6 +124,17 @@ std::string addLine(const std::string& text, Dice& dice) {
       "[gravity]",
       "duration = 1e300",
       "= 3",
+      "<geom/>",
+      "<joint/>",
+      "<body>",
+      "</body>",
+      "<replicate count='99999'>",
+      "<include file='mutated.xml'/>",
+      "<inertial mass='1' diaginertia='1 1 9'/>",
+      "<link name='base'/>",
+      "<!--",
+      "]]>",
+      "&amp;&#0;&nothing;",
       "[[",
       "\"\"\"",
       "a.b.c.d = {}"};

@@ -11,7 +11,7 @@ namespace tests {
 namespace {
 
 constexpr int kSteps = 3, kMostSweeps = 20, kMostSubsteps = 2;
-constexpr int kMostStepped = 300, kMostSeen = 3000;  // bodies
+constexpr int kMostSeen = 3000;  // bodies
 constexpr int kMostWork = 2000;  // bodies times substeps of a step: more is not stepped again
 
 void cutShort(physics::Settings& settings) {
@@ -28,7 +28,7 @@ void look(const scenes::Simulation& simulation) {
   view(simulation, bounds, options, {simulation.metrics()});
 }
 
-Tried run(const scenes::Scene& scene) {
+Tried run(const scenes::Scene& scene, int mostStepped) {
   scenes::Simulation simulation(scene);
   scenes::Checker checker(scene);
   const int bodies = simulation.world().bodyCount();
@@ -36,7 +36,7 @@ Tried run(const scenes::Scene& scene) {
   for (int k = 0;; ++k) {
     checker.observe(simulation);
     look(simulation);
-    if (k == kSteps || bodies > kMostStepped) return {app::ExitCode::kDone, ""};
+    if (k == kSteps || bodies > mostStepped) return {app::ExitCode::kDone, ""};
     const physics::StepReport report = simulation.advance();
     if (report.notFinite) return {app::ExitCode::kCheckFailed, report.notFinite->constraint};
     if (report.substeps * bodies > kMostWork) return {app::ExitCode::kDone, ""};
@@ -52,11 +52,11 @@ bool passNumber(const std::string& text, std::size_t& at) {
 
 }  // namespace
 
-Tried tryScene(const std::string& text, const std::string& path) {
+Tried tryScene(const std::string& text, const std::string& path, int mostStepped) {
   try {
     scenes::Scene scene = scenes::parseScene(text, path);
     cutShort(scene.settings);
-    return run(scene);
+    return run(scene, mostStepped);
   } catch (const scenes::InputError& error) {
     return {app::ExitCode::kBadInput, error.what()};
   }

@@ -15,7 +15,8 @@ struct Tried {
 
 // Reads `text` as the file `path`. What it asks for in work is cut short, so that only reading,
 // and not a long run that was asked for, can take long. Other exceptions than InputError pass.
-Tried tryScene(const std::string& text, const std::string& path);
+// Scenes of more than `mostStepped` bodies are drawn, not stepped.
+Tried tryScene(const std::string& text, const std::string& path, int mostStepped = 300);
 
 // "path:12:3: ..." with a line and a column from 1.
 bool hasPlace(const std::string& told, const std::string& path);

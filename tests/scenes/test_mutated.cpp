@@ -1,5 +1,5 @@
-// 500 scenes with mistakes from a fixed seed: each is run or refused at its place, in a process
-// that may take five seconds and 256 MB. DBD_MUTATIONS=100000 tries more.
+// 500 scenes and 500 models with mistakes from a fixed seed: each is run or refused at its place,
+// in a process that may take five seconds and 256 MB. DBD_MUTATIONS=100000 tries more.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -17,7 +17,7 @@
 namespace tests {
 namespace {
 
-constexpr const char* kPath = "mutated.toml";
+constexpr const char *kPath = "mutated.toml", *kModelPath = "mutated.xml";
 constexpr int kGroups = 10;
 constexpr rlim_t kMegabyte = 1 << 20;
 
@@ -27,12 +27,22 @@ constexpr bool kIsSanitized = true;  // or may be: slower, and with memory of it
 constexpr bool kIsSanitized = false;
 #endif
 
+std::string textOf(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+const std::vector<std::string>& models() {
+  static const std::vector<std::string> texts = {textOf(DBD_TEST_FOLDER "/models/creature.xml"),
+                                                 textOf(DBD_TEST_FOLDER "/models/crane.urdf")};
+  return texts;
+}
+
 const std::vector<std::string>& library() {
   static const std::vector<std::string> texts = [] {
     std::vector<std::string> all;
     for (const std::string& name : scenes::libraryScenes()) {
-      std::ifstream file(scenes::libraryFolder() + "/" + name + ".toml");
-      all.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+      all.push_back(textOf(scenes::libraryFolder() + "/" + name + ".toml"));
     }
     return all;
   }();
@@ -44,14 +54,14 @@ void limit(int resource, rlim_t most) {
   setrlimit(resource, &both);
 }
 
-[[noreturn]] void tryAsChild(const std::string& text, int pipe) {
+[[noreturn]] void tryAsChild(const std::string& text, const char* path, int pipe) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU,
         kIsSanitized ? 30 : 5);  // against hanging: a step of 64 substeps takes most of one
   if (!kIsSanitized) limit(RLIMIT_DATA, 256 * kMegabyte);
   Tried tried{app::ExitCode::kBug, ""};
   try {
-    tried = tryScene(text, kPath);
+    tried = tryScene(text, path);
   } catch (const std::exception& error) {
     tried.told = error.what();
   }
@@ -65,11 +75,11 @@ struct Ended {
   std::string told;
 };
 
-Ended tryInChild(const std::string& text) {
+Ended tryInChild(const std::string& text, const char* path = kPath) {
   int ends[2];
   if (pipe(ends) != 0) return {};
   const pid_t child = fork();
-  if (child == 0) tryAsChild(text, ends[1]);
+  if (child == 0) tryAsChild(text, path, ends[1]);
   close(ends[1]);
   Ended ended;
   char buffer[4096];
@@ -83,13 +93,13 @@ Ended tryInChild(const std::string& text) {
   return ended;
 }
 
-void expectJudged(const std::string& text, int seed) {
-  const Ended ended = tryInChild(text);
+void expectJudged(const std::string& text, int seed, const char* path = kPath) {
+  const Ended ended = tryInChild(text, path);
   const bool documented = ended.code == 0 || ended.code == 2 || ended.code == 3;
   EXPECT_TRUE(documented) << "seed " << seed << ": exit code " << ended.code << " " << ended.told;
   if (ended.code != 2) return;
   const bool inAsset = ended.told.find("assets/") != std::string::npos;
-  EXPECT_TRUE(inAsset || hasPlace(ended.told, kPath)) << "seed " << seed << ": " << ended.told;
+  EXPECT_TRUE(inAsset || hasPlace(ended.told, path)) << "seed " << seed << ": " << ended.told;
 }
 
 int seedsInAll() {
@@ -106,6 +116,12 @@ TEST_P(Mutated, ScenesAreRunOrRefusedAtTheirPlace) {
       std::ofstream(testing::TempDir() + "mutated_" + std::to_string(seed) + ".toml")
           << mutated(library(), seed);
     }
+  }
+}
+
+TEST_P(Mutated, ModelsAreRunOrRefusedAtTheirPlace) {
+  for (int seed = GetParam(); seed < seedsInAll(); seed += kGroups) {
+    expectJudged(mutated(models(), seed), seed, kModelPath);
   }
 }
 
