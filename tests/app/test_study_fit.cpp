@@ -126,8 +126,10 @@ TEST(Asked, CountsAsOursAtTheGoals) {
   Trace peer = pointOf(1e-4, 0.01);  // cheaper, and good for 1 % of 2
   peer.key = {"case", "peer"};
   const CaseResults results = resultsOf(0, {askedPointOf(1e-3, 1e-4), peer});
-  EXPECT_EQ(goalsText({&results}),
-            "ours is the cheapest, or alone, at 1 of 2 goals: 1 % and 0.1 % of 1 cases");
+  EXPECT_EQ(
+      goalsText({&results}),
+      "ours is the cheapest, or alone, at 1 of 2 goals: 1 % and 0.1 % of 1 cases; at 1 by what "
+      "is asked of it alone, without a choice of steps");
 }
 
 TEST(Asked, APlanHasTheCoarsestFirstAndThreeWhereItIsQuick) {
