@@ -181,6 +181,9 @@ std::string refusalOf(const World& world) {
         std::holds_alternative<physics::Triangles>(b.shape[i])) {
       return "bodies of several shapes and meshes of triangles are not handed to other engines";
     }
+    if (world.settings().contact && b.restitution[i] != world.settings().contact->restitution) {
+      return "other engines have one restitution, not one of each body";
+    }
     if (b.isSoft[i])
       return "other engines have no " + softWord(world) + ": points with a thickness";
     if (b.friction[i].staticCoefficient != b.friction[i].dynamicCoefficient &&

@@ -29,9 +29,9 @@ struct BodyDef {
   Pose pose;
   Velocity velocity;
   Motion motion = Motion::kDynamic;
-  std::optional<Friction> friction;  // absent: the World's
+  std::optional<Friction> friction;   // absent: the World's
   std::optional<double> restitution;  // 0..1, absent: the World's
-  int substeps = 1;                  // at least, of its island, with local substeps
+  int substeps = 1;                   // at least, of its island, with local substeps
 };
 
 // The inverse mass and the inverse inertia in the world frame; zeros where nothing moves.

@@ -60,8 +60,8 @@ struct Triangles {
   std::shared_ptr<const TriangleMesh> mesh;
 };
 
-using Shape = std::variant<PointShape, Box, Sphere, Capsule, Cylinder, Convex, Plane, Compound,
-                           Triangles>;
+using Shape =
+    std::variant<PointShape, Box, Sphere, Capsule, Cylinder, Convex, Plane, Compound, Triangles>;
 
 // Volume [m^3] and principal moments of inertia per unit mass [m^2] about the centre of mass.
 // PointShape has neither; a Plane and Triangles have no mass: they give zeros.

@@ -22,8 +22,8 @@ class BroadPhase {
   void add(const Bounds& bounds, bool small);
 
   // Takes the new bounds of the items `moved` over, then appends each pair of a moved item and
-  // another whose bounds overlap; in no order, a pair of two moved items twice. No allocation beyond
-  // `found`.
+  // another whose bounds overlap; in no order, a pair of two moved items twice. No allocation
+  // beyond `found`.
   void update(std::span<const int> moved, std::span<const Bounds> bounds,
               std::vector<std::array<int, 2>>& found);
 

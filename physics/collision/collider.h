@@ -58,8 +58,8 @@ class Collider {
   // by BodyId, the same length). A point is reported when its gap at `start` is at most `margin`
   // [m] plus what the two bodies approach each other by. Where a body moves by more than it is
   // thick, the manifold is that of the first touch along the straight sweep (normal and points
-  // taken there). The result is sorted by (a, its part, b, its part), deterministic, and valid until the next call. No
-  // allocation once the scene has settled.
+  // taken there). The result is sorted by (a, its part, b, its part), deterministic, and valid
+  // until the next call. No allocation once the scene has settled.
   std::span<const Manifold> find(std::span<const Pose> start, std::span<const Pose> end,
                                  double margin);
 

@@ -33,7 +33,7 @@ struct Solid {
   Vec3 normal = Vec3::UnitY();        // of a plane: normal . p <= offset is solid
   double offset = 0;
   std::shared_ptr<const TriangleTree> triangles;  // triangle_tree.h
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // bounds in the body frame; of a plane: none
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();   // bounds in the body frame; of a plane: none
 
   bool isSheet = false;  // a flat polyhedron, without an inside
 

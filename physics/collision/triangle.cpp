@@ -141,7 +141,8 @@ double touchAbout(const Solid& a, const Triangle& t, const Relative& pose, doubl
   const bool isFace = face.separation >= side.separation - tolerance ||
                       side.n.dot(t.normal) > 1 - 0.5 * kLean * kLean;
   if (isFace || !owns(t, side.n)) {
-    const bool isInFront = isFace || t.normal.dot(pose.t) > 0;
+    // What came fast is pushed in for a step: half of it may be, and the triangle still holds it.
+    const bool isInFront = isFace || t.normal.dot(pose.t) > -0.5 * a.thickness;
     contacts.count = 0;
     if (isInFront) touchSide(a, t, pose, face, contacts);
     return distance;

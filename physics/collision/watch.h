@@ -13,8 +13,8 @@
 
 namespace physics::collision {
 
-// A body, or a part of one, as the collider knows it, with its motion in the present step. What is read for most pairs
-// comes first, in a line of the cache.
+// A body, or a part of one, as the collider knows it, with its motion in the present step. What is
+// read for most pairs comes first, in a line of the cache.
 struct alignas(64) Item {
   double travel = 0;  // length of the way of its points so far, at most [m]
   double turn = 0;    // the furthest that turning moves a point of the core in this step [m]
@@ -23,7 +23,7 @@ struct alignas(64) Item {
   bool movable = false;
   bool rests = false;  // stands still until it is woken
   bool isPlane = false;
-  bool isPart = false;  // it is somewhere else in its body: `inBody`
+  bool isPart = false;    // it is somewhere else in its body: `inBody`
   Vec3 x = Vec3::Zero();  // at the start
   Mat3 R = Mat3::Identity();
   Solid solid;

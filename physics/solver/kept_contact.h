@@ -13,7 +13,7 @@ namespace physics {
 
 struct KeptContact {
   BodyId a = 0, b = 0;
-  std::uint64_t key = 0;                // as in ContactPair
+  std::uint64_t key = 0;                 // as in ContactPair
   bool radial = false, carried = false;  // as in ContactPair
   int count = 0;
   Vec3 normal = Vec3::UnitY();  // body frame of b when carried, else world

@@ -81,7 +81,7 @@ struct Built {
   std::vector<ArmScript> armScripts;
   std::map<physics::BodyId, physics::Pose> frames;  // the file's frame of a body in its own, where
                                                     // it is another
-  int families = 0;  // hues given out so far
+  int families = 0;                                 // hues given out so far
 
   // Names and colours the body; throws std::invalid_argument where the name is taken.
   void name(physics::BodyId body, const std::string& name, const render::Color& color);

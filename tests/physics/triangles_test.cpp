@@ -97,7 +97,10 @@ TEST(TriangleGround, LetsABallAndABoxSlideWithoutAKick) {
   }
 }
 
+// No centre gets further below the triangles than half of the thinnest body. Cells of 0.5 m lie
+// below the hills by at most d^2/8 of the curvature, d their diagonal: 0.71^2 / 8 * 1.01 m.
 TEST(TriangleGround, HoldsWhatComesAtAHundredMetresPerSecond) {
+  constexpr double kSag = 0.064;
   const Triangles mesh = ground(80, 0.5, hills);
   const std::vector<Shape> shapes = {Sphere{0.15}, Box{Vec3(0.2, 0.2, 0.2)}, Capsule{0.1, 0.3},
                                      Cylinder{0.15, 0.2}};
@@ -116,7 +119,7 @@ TEST(TriangleGround, HoldsWhatComesAtAHundredMetresPerSecond) {
         world.step();
         const Vec3& x = world.bodies().pose[id].x;
         if (std::abs(x.x()) > 19 || std::abs(x.z()) > 19) break;
-        ASSERT_GT(x.y(), hills(x.x(), x.z()) - 0.05) << i << " in step " << k;
+        ASSERT_GT(x.y(), hills(x.x(), x.z()) - kSag - 0.1) << i << " in step " << k;
       }
     }
   }
