@@ -276,7 +276,7 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   const bool inLanes = count > 0 && batch.takesTurns() && !batch.isSoft();
   profileScope("direct");
   if (inLanes) {
-    batch.joints.prepareVelocityTurns(stage, lanesOf(batch));
+    batch.joints.startVelocityTurns(stage, lanesOf(batch));
   } else {
     batch.joints.prepareVelocities(stage);
     batch.joints.solveVelocities(stage);
@@ -290,7 +290,6 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
     toLanes(w, batch);
     respond(batch);
   }
-  if (inLanes) batch.joints.startVelocityTurns(lanesOf(batch));
   for (int s = 0; s < batch.sweeps; ++s) {
     if (count > 0) {
       sweepContactVelocities(w, batch, s, h);

@@ -172,14 +172,17 @@ void JointPacks::solveVelocities(const JointStage& stage, std::span<const double
   forEach([&](auto& pack) { pack.solveVelocities(stage, wanted); });
 }
 
-void JointPacks::prepareVelocityTurns(const JointStage& stage, const LaneBodies& lanes) {
+void JointPacks::startVelocityTurns(const JointStage& stage, const LaneBodies& lanes) {
   forEach([&](auto& pack) {
     if (pack.hasTurns()) return;
     pack.prepareVelocities(stage);
     pack.solveVelocities(stage);
   });
   forEachTurn([&](auto packs, TurnPack& turn) {
-    for (auto* pack : packs) pack->prepareVelocities(stage);
+    for (auto* pack : packs) {
+      pack->prepareVelocities(stage);
+      pack->solveVelocities(stage);
+    }
     turn.take(packs, lanes, TurnStage::kVelocities);
   });
 }

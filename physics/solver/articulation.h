@@ -214,9 +214,8 @@ class JointPacks {
   void solveVelocities(const JointStage& stage);
   // Of those alone of which `wanted`, by their first body, is more than 0.
   void solveVelocities(const JointStage& stage, std::span<const double> wanted);
-  // The same in turns, which begin with `startVelocityTurns` where bodies are in their lanes.
-  void prepareVelocityTurns(const JointStage& stage, const LaneBodies& lanes);
-  void startVelocityTurns(const LaneBodies& lanes) { follow(lanes); }
+  // Both, and what turns begin with.
+  void startVelocityTurns(const JointStage& stage, const LaneBodies& lanes);
   void solveVelocities(const LaneBodies& lanes);
   void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
   void respond();                                  // of those that ask: `Articulation::response`
