@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 fs::path home() {
   if (const char* given = std::getenv("DBD_HOME"); given != nullptr && *given != '\0') return given;
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  for (const fs::path& near : {program.parent_path(), program.parent_path() / "../share/dbd"}) {
-    if (!error && fs::is_directory(near / "scenes/library", error)) return near;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& near : {folder, folder / "../share/dbd"}) {
+    if (!folder.empty() && fs::is_directory(near / "scenes/library", error)) return near;
   }
   if (fs::is_directory(fs::path(DBD_SOURCE_FOLDER) / "scenes/library", error)) {
     return DBD_SOURCE_FOLDER;

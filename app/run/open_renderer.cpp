@@ -5,15 +5,12 @@
 #include <string>
 
 #include "app/commands/exit_code.h"
-#include "scenes/scene.h"
 
 namespace app {
 
 std::unique_ptr<render::Renderer> openRenderer(const render::RendererOptions& options) {
-  render::RendererOptions here = options;
-  if (here.fontFile.empty()) here.fontFile = scenes::assetFolder() + "/fonts/DejaVuSans.ttf";
   try {
-    return std::make_unique<render::Renderer>(here);
+    return std::make_unique<render::Renderer>(options);
   } catch (const std::runtime_error& error) {
     throw EnvironmentError(error.what());
   }

@@ -14,7 +14,8 @@ namespace {
 
 // A shape, a rotation and a friction are the same wherever they stand.
 std::string sharedName(const std::string& table) {
-  for (const char* word : {".rotation", ".quaternion", ".reference", ".orientation", ".target"}) {
+  for (const char* word :
+       {".rotation", ".quaternion", ".reference", ".orientation", ".target", ".inertia_axes"}) {
     if (table.ends_with(word)) return "rotation";
   }
   for (const char* parent : {".shape.", ".shapes."}) {

@@ -87,6 +87,8 @@ constexpr Meaning kOwn[] = {
     {"body.inertia", "", "kg m^2, principal, body frame, instead of the shape's"},
     {"body.shapes", "[{ shape, position, ... }]",
      "several shapes on one body, in its frame, instead of shape; their masses are summed"},
+    {"body.centre_of_mass", "", "of all shapes, about which inertia is; the origin where absent"},
+    {"body.inertia_axes", "", "along which inertia is, in the body's frame"},
     {"body.shapes.position", "", "in the body's frame"},
     {"body.shapes.rotation", "", "in the body's frame"},
     {"body.shapes.quaternion", "", "in the body's frame"},

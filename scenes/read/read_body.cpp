@@ -74,19 +74,33 @@ struct ReadShape {
   std::vector<std::optional<render::Color>> colors;  // of several
 };
 
-ReadShape readShapes(TableReader& reader, const physics::Matter& matter) {
+// `inertia` about centre_of_mass along inertia_axes, of a body of several shapes.
+std::optional<StatedInertia> readStated(TableReader& reader, const physics::Matter& matter,
+                                        const std::optional<Vec3>& inertia) {
+  StatedInertia stated;
+  reader(Field{"centre_of_mass", Unit::kBodyPoint}, stated.frame.x);
+  reader(Field{"inertia_axes"}, stated.frame.q);
+  for (const char* key : {"centre_of_mass", "inertia_axes"}) {
+    const bool whole = reader.has("shapes") && inertia && matter.mass;
+    if (reader.has(key) && !whole) {
+      reader.failAt(key, "expected 'shapes', 'mass' and 'inertia' beside it");
+    }
+  }
+  if (!reader.has("shapes") || !inertia) return std::nullopt;
+  if (!matter.mass) reader.failAt("inertia", "expected 'mass' beside it");
+  stated.mass = *matter.mass;
+  stated.moments = *inertia;
+  return stated;
+}
+
+ReadShape readShapes(TableReader& reader, const physics::Matter& matter,
+                     const std::optional<Vec3>& inertia) {
+  const std::optional<StatedInertia> stated = readStated(reader, matter, inertia);
   reader.exactlyOne("shape", "shapes");
   if (!reader.has("shapes")) return {readShapeOf(reader), {}, {}};
   const Value* value = reader.take("shapes");
-  const ReadParts parts = readParts(*value, reader.spot(Field{"shapes"}), matter);
+  const ReadParts parts = readParts(*value, reader.spot(Field{"shapes"}), matter, stated);
   return {{parts.made.compound, parts.made.toParts}, parts.made.mass, parts.colors};
-}
-
-void checkInertia(const TableReader& reader, const ReadShape& shape) {
-  if (!reader.has("inertia") || !shape.mass) return;
-  if (shape.placed.toFile.q.coeffs() == physics::Quat::Identity().coeffs()) return;
-  reader.failAt("inertia",
-                "expected none: the principal axes of these shapes are not those of the body");
 }
 
 }  // namespace
@@ -108,15 +122,14 @@ void readBody(TableReader& reader, Recipe& recipe) {
   physics::Matter matter = readMatter(reader);
   def.friction = matter.friction;
   def.restitution = matter.restitution;
-  const ReadShape shape = readShapes(reader, matter);
+  readInertia(reader, def);
+  const ReadShape shape = readShapes(reader, matter, def.inertia);
   if (shape.mass && !matter.mass) matter.mass = shape.mass;
   def.shape = shape.placed.shape;
   def.pose = physics::placed(readPose(reader), shape.placed.toFile);
   def.pose.q.normalize();
   def.motion = readMotion(reader, def.shape);
   takeMass(reader, matter, def);
-  readInertia(reader, def);
-  checkInertia(reader, shape);
   readVelocity(reader, def);
   std::optional<render::Color> color;
   readColor(reader, color);

@@ -42,7 +42,8 @@ ReadPart readPart(const Value& value, const Spot& spot, const physics::Matter& m
 
 }  // namespace
 
-ReadParts readParts(const Value& value, const Spot& spot, const physics::Matter& matter) {
+ReadParts readParts(const Value& value, const Spot& spot, const physics::Matter& matter,
+                    const std::optional<StatedInertia>& stated) {
   if (!value.isArray() || value.items.empty()) {
     failExpected(spot, value,
                  "an array of parts such as [{ shape = { sphere = { radius = 1 } } }]");
@@ -54,7 +55,8 @@ ReadParts readParts(const Value& value, const Spot& spot, const physics::Matter&
     parts.push_back(part.part);
     read.colors.push_back(part.color);
   }
-  read.made = physics::makeCompound(parts);
+  read.made = stated ? physics::makeCompound(parts, stated->frame, stated->moments / stated->mass)
+                     : physics::makeCompound(parts);
   return read;
 }
 

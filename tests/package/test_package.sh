@@ -9,7 +9,7 @@ cmake --install "$build" --prefix "$folder/installed" > /dev/null
 mv "$folder/installed" "$folder/moved"
 (cd / && env -u DBD_HOME "$folder/moved/bin/dbd" doctor) | tee "$folder/doctor.txt"
 grep -q "$folder/moved/.*share/dbd/scenes/library" "$folder/doctor.txt"
-(cd "$folder" && env -u DBD_HOME moved/bin/dbd render pendulum --frames 0 --width 160 --quality draft \
+(cd "$folder" && env -u DBD_HOME moved/bin/dbd render pendulum --frames 0 --size 160x90 --quality draft \
   --progress none --quiet -o drawn)
 test -s "$folder/drawn/frames/00000.png"
 cmake -S "$here" -B "$folder/build" -DCMAKE_PREFIX_PATH="$folder/moved" -DCMAKE_BUILD_TYPE=Release > /dev/null

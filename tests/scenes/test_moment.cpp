@@ -14,7 +14,7 @@ bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-render::Picture pictureOf(const Simulation& simulation) {
+render::Picture pictureNow(const Simulation& simulation) {
   MotionBounds bounds;
   bounds.include(simulation);
   ViewOptions options;
@@ -50,7 +50,7 @@ TEST_P(EveryScene, IsShownAsItWasByAnotherSimulation) {
   EXPECT_TRUE(sameBits(again.metrics, numbers.metrics));
   EXPECT_EQ(numbers.metrics.size(), numberNames(kept.metrics).size());
   EXPECT_EQ(other.stateHash(), stepped.stateHash());
-  EXPECT_EQ(render::pictureHash(pictureOf(other)), render::pictureHash(pictureOf(stepped)));
+  EXPECT_EQ(render::pictureHash(pictureNow(other)), render::pictureHash(pictureNow(stepped)));
 }
 INSTANTIATE_TEST_SUITE_P(Library, EveryScene, testing::ValuesIn(libraryScenes()));
 

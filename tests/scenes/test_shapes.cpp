@@ -44,6 +44,31 @@ TEST(SceneShapes, TakeAMassForAllOfThem) {
   EXPECT_NEAR(simulation.world().bodies().pose[1].x.y(), 2.25, 1e-12);
 }
 
+// As it is weighed, not as its shapes would weigh.
+TEST(SceneShapes, TakeTheInertiaThatIsStated) {
+  const std::string stated =
+      "mass = 5\ninertia = [1, 2, 2.5]\ncentre_of_mass = [0.5, 0, 0]\n"
+      "inertia_axes = { axis = [0, 0, 1], degrees = 90 }\n";
+  const Simulation simulation(sceneOf(kDumbbell + stated));
+  const physics::Bodies& b = simulation.world().bodies();
+  EXPECT_NEAR((b.pose[1].x - Vec3(1, 2.5, 3)).norm(), 0, 1e-12);
+  EXPECT_DOUBLE_EQ(b.mass[1], 5);
+  const auto& parts = std::get<physics::Compound>(b.shape[1]).parts->list;
+  EXPECT_NEAR((physics::placed(b.pose[1], parts[1].pose).x - Vec3(1, 3, 3)).norm(), 0, 1e-12);
+  // Of 1 kg m^2 about the axis that the body's x is turned to by 90 degrees twice: the world's -x.
+  const Vec3 first = b.pose[1].q * Vec3::UnitX();
+  EXPECT_NEAR(std::abs(first.x()), 1, 1e-12);
+}
+
+TEST(SceneShapes, WantAllOfAStatedInertia) {
+  EXPECT_NE(errorOf(std::string(kDumbbell) + "centre_of_mass = [0, 0, 0]\n")
+                .find("expected 'shapes', 'mass' and 'inertia' beside it"),
+            std::string::npos);
+  EXPECT_NE(
+      errorOf(std::string(kDumbbell) + "inertia = [1, 1, 1]\n").find("expected 'mass' beside it"),
+      std::string::npos);
+}
+
 // The anchor is in the frame that the file has of the body: the light ball's centre.
 TEST(SceneShapes, AreJoinedInTheFrameOfTheFile) {
   const std::string joint =
