@@ -278,8 +278,7 @@ struct SmallSteps::Impl {
   void bounce(Model& w, Batch& batch, double h);
   void solveContactPositions(Model& w, Batch& batch, const JointStage& stage);
   void takeTurns(Model& w, Batch& batch, const JointStage& stage);
-  BodyId islandOf(const Batch& batch, const ContactBlock& block, int lane) const;
-  void addWork(const Batch& batch, std::vector<double>& work);
+  void addWork(const Model& w, const Batch& batch, std::vector<double>& work);
   bool findRise(Model& w, Batch& batch);
   void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares);
   void boundWork(Model& w, Batch& batch, const JointStage& stage);

@@ -272,20 +272,16 @@ void SmallSteps::Impl::sweepSoft(Batch& batch) {
 void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
   const int count = static_cast<int>(batch.blocks.size());
-  // All that moves is in lanes.
-  const bool inLanes = count > 0 && batch.takesTurns() && !batch.isSoft();
   profileScope("direct");
-  if (inLanes) {
-    batch.joints.startVelocityTurns(stage, lanesOf(batch));
-  } else {
-    batch.joints.prepareVelocities(stage);
-    batch.joints.solveVelocities(stage);
-  }
+  batch.joints.prepareVelocities(stage);
+  batch.joints.solveVelocities(stage);
   for (const int k : batch.deformables) {
     deformables[k].prepareVelocities(w.kinds, {w.bodies.pose, w.bodies.start, h}, masses);
   }
   measure(batch.softRows, moved);
   const bool isMixed = batch.isMixed();
+  // All that moves is in lanes.
+  const bool inLanes = count > 0 && batch.takesTurns() && !batch.isSoft();
   if (count > 0 && isMixed) {
     toLanes(w, batch);
     respond(batch);

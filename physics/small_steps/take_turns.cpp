@@ -67,13 +67,8 @@ void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const Joint
   batch.joints.followPositions(stage);
 }
 
-// Of the contact in lane l.
-BodyId SmallSteps::Impl::islandOf(const Batch& batch, const ContactBlock& block, int l) const {
-  return islands[batch.slots[block.bodyA[l] > 0 ? block.bodyA[l] : block.bodyB[l]]];
-}
-
 // lambda^T J u of islands, by their first body, for what the lanes move by.
-void SmallSteps::Impl::addWork(const Batch& batch, std::vector<double>& work) {
+void SmallSteps::Impl::addWork(const Model& w, const Batch& batch, std::vector<double>& work) {
   works.resize(batch.blocks.size());
   contactKernels().measureWork(batch.blocks.data(), static_cast<int>(batch.blocks.size()),
                                batch.motions.data(), works.data()->of);
@@ -81,7 +76,9 @@ void SmallSteps::Impl::addWork(const Batch& batch, std::vector<double>& work) {
   for (std::size_t k = 0; k < batch.blocks.size(); ++k) {
     const ContactBlock& block = batch.blocks[k];
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
-      if (block.contact[l] >= 0) work[islandOf(batch, block, l)] += works[k].of[l];
+      if (block.contact[l] < 0) continue;
+      const KeptContact& c = contacts[block.contact[l]];
+      work[islands[isMovable(w.bodies, c.a) ? c.a : c.b]] += works[k].of[l];
     }
   }
 }
@@ -96,10 +93,10 @@ bool SmallSteps::Impl::findRise(Model& w, Batch& batch) {
   };
   swap();
   toLanes(w, batch);
-  addWork(batch, load);
+  addWork(w, batch, load);
   swap();
   toLanes(w, batch);
-  addWork(batch, carried);
+  addWork(w, batch, carried);
   bool some = false;
   for (const BodyId i : batch.bodies) {
     const double before = load[i], more = carried[i] - load[i];
@@ -136,7 +133,8 @@ void SmallSteps::Impl::boundWork(Model& w, Batch& batch, const JointStage& stage
     bool some = false;
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
       if (block.contact[l] < 0) continue;
-      const double share = change[islandOf(batch, block, l)];
+      const KeptContact& c = contacts[block.contact[l]];
+      const double share = change[islands[isMovable(w.bodies, c.a) ? c.a : c.b]];
       shares.of[l] = static_cast<float>(share);
       some = some || share > 0;
     }

@@ -71,47 +71,6 @@ void JointPacks::take(std::span<Articulation> articulations, std::span<const int
       }
     }
   }
-  takeTurnPacks();
-}
-
-// Of each topology fours go in pairs.
-void JointPacks::takeTurnPacks() {
-  turnCount_ = 0;
-  const auto add = [&](std::size_t first, int ones, int fours) {
-    if (turnCount_ == turns_.size()) turns_.emplace_back();
-    Turn& turn = turns_[turnCount_++];
-    turn.first = first;
-    turn.ones = ones;
-    turn.fours = fours;
-  };
-  for (std::size_t k = 0; k < oneCount_; ++k) {
-    if (ones_[k].hasTurns()) add(k, 1, 0);
-  }
-  for (std::size_t k = 0; k < fourCount_; ++k) {
-    if (!fours_[k].hasTurns()) continue;
-    const bool isPair = k + 1 < fourCount_ && fours_[k].isLike(fours_[k + 1]);
-    add(k, 0, isPair ? 2 : 1);
-    if (isPair) ++k;
-  }
-}
-
-// f(packs, what they take turns with)
-template <class F>
-void JointPacks::forEachTurn(F&& f) {
-  for (std::size_t k = 0; k < turnCount_; ++k) {
-    Turn& turn = turns_[k];
-    if (turn.ones > 0) {
-      JointPack<1>* const one[1] = {&ones_[turn.first]};
-      f(std::span<JointPack<1>* const>(one), turn.pack);
-    } else {
-      JointPack<4>* const fours[2] = {&fours_[turn.first], &fours_[turn.first + turn.fours - 1]};
-      f(std::span<JointPack<4>* const>(fours, turn.fours), turn.pack);
-    }
-  }
-}
-
-void JointPacks::follow(const LaneBodies& lanes) {
-  for (std::size_t k = 0; k < turnCount_; ++k) turns_[k].pack.follow(lanes.motions);
 }
 
 void JointPacks::stiffen(std::span<Mat3> stiffness) const {
@@ -132,28 +91,15 @@ void JointPacks::followPositions(const JointStage& stage) {
 }
 
 void JointPacks::startTurns(const JointStage& stage, const LaneBodies& lanes) {
-  forEach([&](auto& pack) {
-    if (!pack.hasTurns()) pack.startTurns(stage, lanes);
-  });
-  forEachTurn([&](auto packs, TurnPack& turn) {
-    for (auto* pack : packs) pack->seeTurns(stage);
-    turn.take(packs, lanes, TurnStage::kPositions);
-  });
-  follow(lanes);
+  forEach([&](auto& pack) { pack.startTurns(stage, lanes); });
 }
 
 void JointPacks::followPositions(const LaneBodies& lanes) {
-  forEach([&](auto& pack) {
-    if (!pack.hasTurns()) pack.followPositions(lanes);
-  });
-  follow(lanes);
+  forEach([&](auto& pack) { pack.followPositions(lanes); });
 }
 
 void JointPacks::tell(const JointStage& stage) {
-  forEach([&](auto& pack) {
-    if (!pack.hasTurns()) pack.tell(stage);
-  });
-  forEachTurn([&](auto packs, TurnPack& turn) { turn.giveBack(packs); });
+  forEach([&](auto& pack) { pack.tell(stage); });
 }
 
 void JointPacks::closePositions(const JointStage& stage, double tolerance) {
@@ -172,26 +118,8 @@ void JointPacks::solveVelocities(const JointStage& stage, std::span<const double
   forEach([&](auto& pack) { pack.solveVelocities(stage, wanted); });
 }
 
-void JointPacks::startVelocityTurns(const JointStage& stage, const LaneBodies& lanes) {
-  forEach([&](auto& pack) {
-    if (pack.hasTurns()) return;
-    pack.prepareVelocities(stage);
-    pack.solveVelocities(stage);
-  });
-  forEachTurn([&](auto packs, TurnPack& turn) {
-    for (auto* pack : packs) {
-      pack->prepareVelocities(stage);
-      pack->solveVelocities(stage);
-    }
-    turn.take(packs, lanes, TurnStage::kVelocities);
-  });
-}
-
 void JointPacks::solveVelocities(const LaneBodies& lanes) {
-  forEach([&](auto& pack) {
-    if (!pack.hasTurns()) pack.solveVelocities(lanes);
-  });
-  follow(lanes);
+  forEach([&](auto& pack) { pack.solveVelocities(lanes); });
 }
 
 void JointPacks::refineVelocities(const JointStage& stage) {

@@ -15,7 +15,6 @@
 
 #include "physics/solver/joint_topology.h"
 #include "physics/solver/lane_mass.h"
-#include "physics/solver/turn_pack.h"
 
 namespace physics {
 
@@ -105,12 +104,9 @@ class JointPack {
   void take(std::span<Articulation* const> articulations);
   void stiffen(std::span<Mat3> stiffness) const;
   void leave(const JointStage& stage, double most);
-  bool isLike(const JointPack& other) const { return topology_ == other.topology_; }
-  bool hasTurns() const { return TurnPack::serves(*topology_); }
   void seePositions(const JointStage& stage);
   void followPositions(const JointStage& stage);
   void startTurns(const JointStage& stage, const LaneBodies& lanes);
-  void seeTurns(const JointStage& stage);
   void followPositions(const LaneBodies& lanes);
   void tell(const JointStage& stage) const;
   void closePositions(const JointStage& stage, double tolerance);
@@ -123,7 +119,6 @@ class JointPack {
   void finish(Kinds& kinds, double h);
 
  private:
-  friend class TurnPack;
   struct State {  // of a row that its kind evaluates, by lane
     std::array<JointRow::Role, W> role{};
     std::array<bool, W> active{};
@@ -180,7 +175,6 @@ class JointPack {
   bool tailFactored_ = false;
   std::array<bool, W> stale_{};  // the factor is of other free rows
   bool seenSince_ = true;        // J is not that of the factor any more
-  bool isNewFactor_ = true;      // none has taken it to its turns
   std::array<bool, W> exact_{};  // the factor is that of the velocity stage
   std::vector<JointFactor<W>> keptFactors_;
   std::vector<Num<W>> keptTail_, keptScaled_;
@@ -214,8 +208,6 @@ class JointPacks {
   void solveVelocities(const JointStage& stage);
   // Of those alone of which `wanted`, by their first body, is more than 0.
   void solveVelocities(const JointStage& stage, std::span<const double> wanted);
-  // Both, and what turns begin with.
-  void startVelocityTurns(const JointStage& stage, const LaneBodies& lanes);
   void solveVelocities(const LaneBodies& lanes);
   void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
   void respond();                                  // of those that ask: `Articulation::response`
@@ -225,21 +217,10 @@ class JointPacks {
  private:
   template <class F>
   void forEach(F&& f);
-  template <class F>
-  void forEachTurn(F&& f);
-  void takeTurnPacks();
-  void follow(const LaneBodies& lanes);
   std::vector<JointPack<1>> ones_;
   std::vector<JointPack<4>> fours_;
   std::size_t oneCount_ = 0, fourCount_ = 0;
   std::vector<std::vector<Articulation*>> byTopology_;
-  struct Turn {  // of the ones and fours: which, and how many
-    std::size_t first = 0;
-    int ones = 0, fours = 0;
-    TurnPack pack;
-  };
-  std::vector<Turn> turns_;
-  std::size_t turnCount_ = 0;
 };
 
 }  // namespace physics

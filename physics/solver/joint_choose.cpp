@@ -1,7 +1,6 @@
 // Which joint kernels this processor runs. All give the same bytes.
 #include "physics/base/rotation.h"
 #include "physics/solver/joint_block.h"
-#include "physics/solver/turn_block.h"
 
 namespace physics {
 
@@ -15,11 +14,6 @@ template <>
 const JointKernels<4>& jointKernels<4>() {
   static const bool wide = __builtin_cpu_supports("avx2");
   return wide ? kJointKernelsAvx2Of4 : kJointKernelsSse2Of4;
-}
-
-const TurnKernels& turnKernels() {
-  static const bool wide = __builtin_cpu_supports("avx2");
-  return wide ? kTurnKernelsAvx2 : kTurnKernelsSse2;
 }
 
 void turnFar(const double (&theta)[3], double (&q)[4]) {

@@ -206,11 +206,11 @@ void JointPack<W>::begin() {
     const int i = static_cast<int>(k);
     JointLanes<W>& row = rows_[i];
     const bool byKind = topology_->shapes[i].seen == JointSeen::kByKind;
-    std::fill(std::begin(row.lambda), std::end(row.lambda), Num<W>{});
-    std::fill(std::begin(row.right), std::end(row.right), Num<W>{});
-    std::fill(std::begin(row.free.v), std::end(row.free.v), byKind ? 0.0 : 1.0);
-    for (int l = 0; byKind && l < lanes_; ++l) {
-      if (!states_[i].active[l]) continue;
+    for (int l = 0; l < W; ++l) {
+      write(row.lambda, l, Vec3::Zero());
+      write(row.right, l, Vec3::Zero());
+      row.free.v[l] = byKind ? 0 : 1;
+      if (!byKind || l >= lanes_ || !states_[i].active[l]) continue;
       if (states_[i].role[l] != JointRow::Role::kLoad) {
         row.free.v[l] = 1;
         continue;
@@ -268,7 +268,6 @@ template <int W>
 void JointPack<W>::factorize() {
   findUsed();
   jointKernels<W>().factorize(view());
-  isNewFactor_ = true;
   seenSince_ = false;
   stale_.fill(false);
 }
@@ -434,13 +433,6 @@ void JointPack<W>::startTurns(const JointStage& stage, const LaneBodies& lanes) 
   followPositions(lanes);
 }
 
-// What their turns take from here.
-template <int W>
-void JointPack<W>::seeTurns(const JointStage& stage) {
-  seePositions(stage);
-  factorizeStale();
-}
-
 template <int W>
 void JointPack<W>::followPositions(const LaneBodies& lanes) {
   openAll();
@@ -577,16 +569,12 @@ void JointPack<W>::prepareVelocities(const JointStage& stage) {
     const int i = static_cast<int>(k);
     const JointLanes<W>& row = rows_[i];
     const JointShape& shape = topology_->shapes[i];
-    if (shape.seen != JointSeen::kByKind) {
-      for (int l = 0; l < W; ++l) {
-        const bool holds = !isLimit(shape) || row.lambda[0].v[l] != 0;
-        setFree(i, l, holds && !(row.regularisation.v[l] > 0));
-      }
-      continue;
-    }
+    const bool byKind = shape.seen == JointSeen::kByKind;
     for (int l = 0; l < W; ++l) {
-      const bool free = !givesWay(i, l) && l < lanes_ && states_[i].active[l];
-      setFree(i, l, free && (!isBounded(row, l) || !read(row.lambda, l).isZero(0)));
+      bool free = !givesWay(i, l);
+      if (byKind) free = free && l < lanes_ && states_[i].active[l];
+      const bool bounded = byKind ? free && isBounded(row, l) : isLimit(shape);
+      setFree(i, l, free && (!bounded || !read(row.lambda, l).isZero(0)));
     }
   }
   gatherPoses<W>(ids_, stage.pose, bodies_);
