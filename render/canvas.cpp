@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -89,20 +88,6 @@ struct Face {
 };
 
 }  // namespace
-
-// Of the tree that it was built in, else beside the program as it is installed, else where it was
-// to be installed.
-std::string shippedFont() {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  for (const fs::path& assets :
-       {fs::path(DBD_ASSET_DIR), program.parent_path() / "../share/dbd/assets"}) {
-    const fs::path font = assets / "fonts/DejaVuSans.ttf";
-    if (fs::exists(font, error)) return font.string();
-  }
-  return DBD_DATA_FOLDER "/assets/fonts/DejaVuSans.ttf";
-}
 
 struct Canvas::Impl {
   explicit Impl(const std::string& fontFile);

@@ -12,8 +12,6 @@
 
 namespace render {
 
-std::string shippedFont();  // the file of the font that comes with dbd
-
 using Pixel = Eigen::Vector2f;
 
 class Canvas {

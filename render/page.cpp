@@ -8,6 +8,7 @@
 
 #include "render/context.h"
 #include "render/gl.h"
+#include "render/shipped.h"
 
 namespace render {
 namespace {

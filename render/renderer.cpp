@@ -18,6 +18,7 @@
 #include "render/overlay.h"
 #include "render/shaders.h"
 #include "render/shadow.h"
+#include "render/shipped.h"
 #include "render/strokes.h"
 #include "render/surfaces.h"
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "render/shipped.h"
 #include "scenes/figure/figure_sheet.h"
 #include "scenes/models/read_model.h"
 #include "scenes/read/glossary.h"
@@ -18,19 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder that holds scenes/ and assets/: $DBD_HOME, else beside the program, else the source
-// tree, else where dbd is installed.
+// The folder that holds scenes/ and assets/.
 fs::path home() {
   if (const char* given = std::getenv("DBD_HOME"); given != nullptr && *given != '\0') return given;
-  std::error_code error;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& near : {folder, folder / "../share/dbd"}) {
-    if (!folder.empty() && fs::is_directory(near / "scenes/library", error)) return near;
-  }
-  if (fs::is_directory(fs::path(DBD_SOURCE_FOLDER) / "scenes/library", error)) {
-    return DBD_SOURCE_FOLDER;
-  }
-  return DBD_DATA_FOLDER;
+  return render::shippedFolder();
 }
 
 // `kind`: "scene" or "figure".

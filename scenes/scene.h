@@ -126,7 +126,8 @@ Scene parseScene(const std::string& text, const std::string& path,
 
 std::vector<std::string> libraryScenes();  // names, sorted
 
-// Folders of the library and the assets: $DBD_HOME, else beside the program, else the source tree.
+// Folders of the library and the assets: of $DBD_HOME, else of what comes with dbd
+// (render/shipped.h).
 std::string libraryFolder();
 std::string assetFolder();
 

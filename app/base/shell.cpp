@@ -10,7 +10,7 @@ namespace app {
 std::string shellQuoted(const std::string& word) {
   const bool isPlain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
     return std::isalnum(c) ||
-           std::string("._-/=,:+").find(static_cast<char>(c)) != std::string::npos;
+           std::string("._-/=,:+%@").find(static_cast<char>(c)) != std::string::npos;
   });
   if (isPlain && !word.empty()) return word;
   std::string text = "'";

@@ -8,6 +8,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "render/shipped.h"
+
 namespace app {
 
 namespace {

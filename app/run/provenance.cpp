@@ -4,23 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+
+#include "app/base/shell.h"
 
 namespace app {
 
 namespace {
-
-// As a shell takes it for one word.
-std::string shellWord(const std::string& word) {
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string("._-+/:=,%@").find(static_cast<char>(c)) != std::string::npos;
-  });
-  if (plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string program(const RunRecord& record) {
   return "dbd " + record.program.value("version", std::string());
@@ -35,9 +24,9 @@ std::string sceneAndHash(const RunRecord& record) {
 
 std::string commandOf(const RunRecord& record, const std::string& frames) {
   const Json& picture = record.picture;
-  std::string line = "dbd render " + shellWord(record.scene.value("source", std::string()));
+  std::string line = "dbd render " + shellQuoted(record.scene.value("source", std::string()));
   for (const Json& setting : record.scene.value("overrides", Json::array())) {
-    line += " --set " + shellWord(setting.get<std::string>());
+    line += " --set " + shellQuoted(setting.get<std::string>());
   }
   line += fmt::format(" --quality {} --size {}x{}", picture.value("quality", std::string()),
                       picture.value("width", 0), picture.value("height", 0));

@@ -9,6 +9,7 @@
 
 #include "app/base/output_file.h"
 #include "app/run/frame_folder.h"
+#include "app/run/frame_range.h"
 
 namespace app {
 
@@ -80,8 +81,12 @@ void takeFile(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 std::string framesOf(const Shard& shard, const std::vector<int>& frames) {
-  const int step = frames.size() > 1 ? frames[1] - frames[0] : 1;
-  return fmt::format("{}:{}:{}", frames.at(shard.index), frames.back() + 1, step * shard.count);
+  std::vector<int> share;
+  for (auto k = static_cast<std::size_t>(shard.index); k < frames.size();
+       k += static_cast<std::size_t>(shard.count)) {
+    share.push_back(frames[k]);
+  }
+  return frameRangeText(share);
 }
 
 fs::path folderOf(const Shard& shard, const fs::path& folder) {

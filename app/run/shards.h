@@ -14,7 +14,7 @@ struct Shard {
   int index = 0, count = 1;
 };
 
-// Of ascending frames a step apart, as --frames takes it: "3:600:8". There are at least as many
+// Of ascending frames a step apart, as --frames takes it: "3:596:8". There are at least as many
 // frames as shards.
 std::string framesOf(const Shard& shard, const std::vector<int>& frames);
 std::filesystem::path folderOf(const Shard& shard, const std::filesystem::path& folder);

@@ -48,7 +48,7 @@ bool SymmetricStep::dampsWithin(double time, const Surroundings& world, const Tr
 bool SymmetricStep::resolvesForces() const {
   for (std::size_t i = 0; i < refs_.size(); ++i) {
     const IslandRow& row = present_.rows[i];
-    if (!isForce_[i] || !row.solved || (!isDamped_.empty() && isDamped_[i])) continue;
+    if (!isForce_[i] || !row.solved || isDamped_[i]) continue;
     // alpha^-1 is K (h/2)^2, of which A takes (w h/2)^2.
     if (4 * mobilityOf(i, row) > row.alpha.trace()) return false;
   }

@@ -67,6 +67,7 @@ SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const Bod
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) levers_.push_back(leverOf(i, world));
   const std::size_t rows = refs_.size(), size = bodies_.size();
+  isDamped_.assign(rows, false);
   present_.joints = RowSystem(topology_);
   all_ = RowSystem(topology_);
   if (!topology_->isTree) across_ = CrossSystem(topology_);
@@ -159,22 +160,25 @@ bool SymmetricStep::project(const IslandState& state, double tolerance, const Su
   return closed;
 }
 
-void SymmetricStep::takeMomenta(IslandState& state) const {
+template <class Change>
+void SymmetricStep::changeSpins(IslandState& state, const Change& change) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!turns(i) || isIsotropic(inertia_[i])) continue;
-    const Vec3 omega = state.pose[i].q.conjugate() * state.velocity[i].w;
-    const Vec3 momentum = inertia_[i].cwiseProduct(omega) / inertia_[i].maxCoeff();
-    state.velocity[i].w = state.pose[i].q * momentum;
+    const Vec3 inside = state.pose[i].q.conjugate() * state.velocity[i].w;
+    state.velocity[i].w = state.pose[i].q * change(i, inside);
   }
 }
 
+void SymmetricStep::takeMomenta(IslandState& state) const {
+  changeSpins(state, [&](std::size_t i, const Vec3& omega) -> Vec3 {
+    return inertia_[i].cwiseProduct(omega) / inertia_[i].maxCoeff();
+  });
+}
+
 void SymmetricStep::takeSpins(IslandState& state) const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!turns(i) || isIsotropic(inertia_[i])) continue;
-    const Vec3 momentum = state.pose[i].q.conjugate() * state.velocity[i].w;
-    const Vec3 omega = inverseInertia_[i].cwiseProduct(momentum) * inertia_[i].maxCoeff();
-    state.velocity[i].w = state.pose[i].q * omega;
-  }
+  changeSpins(state, [&](std::size_t i, const Vec3& momentum) -> Vec3 {
+    return inverseInertia_[i].cwiseProduct(momentum) * inertia_[i].maxCoeff();
+  });
 }
 
 void SymmetricStep::restart() { present_ = first_; }

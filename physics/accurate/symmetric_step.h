@@ -100,6 +100,8 @@ class SymmetricStep {
   void put(const IslandState& state, const Surroundings& world, const TrialPoses& trial);
   void measure(const Surroundings& world, const TrialPoses& trial);
   void turnInertia();
+  template <class Change>  // of the spin of each body that has several, in its own frame
+  void changeSpins(IslandState& state, const Change& change) const;
   double leverOf(std::size_t place, const Surroundings& world) const;
   void lookAt(std::span<const Pose> now, const TrialPoses& trial, const Surroundings& world,
               double h);

@@ -21,16 +21,9 @@ namespace {
 // are carried by both bodies, so that their gaps are off by the square of it.
 constexpr double kStill = 1e-4, kStillInMotion = 3e-3;
 constexpr double kStillOfMargin = 0.25;  // then no point that is near was missed
-constexpr double kLooksInMotion =
-    2;                          // that it is kept for, so that what comes to rest is looked at
+constexpr double kLooksInMotion = 2;  // it is kept for, so that what comes to rest is looked at
 constexpr double kShort = 0.1;  // of the thickness
 constexpr double kSpare = 0.1;  // of the margin: looked further than asked, so that manifolds last
-
-double smallerSize(const Solid& a, const Solid& b) {
-  if (b.kind == Kind::triangles) return a.size;
-  if (a.size == 0 || b.size == 0) return a.size + b.size;
-  return std::min(a.size, b.size);
-}
 
 // The most that two items can come closer during the step along n, from b to a.
 double approach(const Item& a, const Item& b, const Vec3& n) {

@@ -18,11 +18,6 @@ namespace {
 constexpr double kRimDeeper = 1e-4;  // a rim has no corners to keep to
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-double smallerSize(const Solid& a, const Solid& b) {
-  if (a.size == 0 || b.size == 0) return a.size + b.size;
-  return std::min(a.size, b.size);
-}
-
 Line placed(const Line& line, const Relative& pose) {
   return {pose.R * line.from + pose.t, pose.R * line.to + pose.t};
 }

@@ -131,6 +131,12 @@ Solid makeSolid(const Shape& shape) {
   return solid;
 }
 
+double smallerSize(const Solid& a, const Solid& b) {
+  if (b.kind == Kind::triangles) return a.size;
+  if (a.size == 0 || b.size == 0) return a.size + b.size;
+  return std::min(a.size, b.size);
+}
+
 Relative relativePose(const Pose& a, const Pose& b) {
   const Mat3 toB = b.q.toRotationMatrix().transpose();
   return {toB * a.q.toRotationMatrix(), toB * (a.x - b.x)};

@@ -41,6 +41,9 @@ struct Solid {
   bool isLine() const { return kind == Kind::capsule || kind == Kind::cylinder; }
 };
 
+// Of two that may touch: what their tolerances are shares of. A point, a plane and a mesh have none.
+double smallerSize(const Solid& a, const Solid& b);
+
 // Throws std::invalid_argument for sizes that make no solid.
 Solid makeSolid(const Shape& shape);
 

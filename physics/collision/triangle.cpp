@@ -131,8 +131,7 @@ double touchAbout(const Solid& a, const Triangle& t, const Relative& pose, doubl
   Side side = bestOther(a, t, pose, keep + a.rounding);
   if (side.separation - a.rounding > reach)
     return contacts.n = side.n, side.separation - a.rounding;
-  const double size = std::min(a.size > 0 ? a.size : t.solid.size, t.solid.size);
-  const double tolerance = kFlat * size;
+  const double tolerance = kFlat * smallerSize(a, t.solid);
   if (std::max(side.separation, face.separation) > 0) {
     takeNearest(a, t, pose, tolerance, side, contacts);
   }
@@ -188,7 +187,7 @@ double touchTriangle(const Solid& a, const Triangle& triangle, const Relative& p
   about.t -= triangle.centre;
   Contacts contacts;
   const double distance = touchAbout(a, triangle, about, reach, keep, contacts);
-  const double size = std::min(a.size > 0 ? a.size : triangle.solid.size, triangle.solid.size);
+  const double size = smallerSize(a, triangle.solid);
   out.normal = contacts.n;
   out.count = 0;
   if (distance > reach || contacts.count == 0) return distance;

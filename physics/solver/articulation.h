@@ -129,6 +129,7 @@ class JointPack {
   void seeOthers(const JointStage& stage, bool all);
   void openAll();
   void solveOpenVelocities();
+  void solveOpenVelocities(const JointStage& stage);
   void takeLanes(const LaneBodies& lanes);
   void giveLanes(const LaneBodies& lanes) const;
   void see(const JointStage& stage, bool first);

@@ -599,9 +599,7 @@ void JointPack<W>::prepareVelocities(const JointStage& stage) {
 template <int W>
 void JointPack<W>::solveVelocities(const JointStage& stage) {
   openAll();
-  gatherMotion<W>(ids_, stage.moved, bodies_);
-  solveOpenVelocities();
-  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+  solveOpenVelocities(stage);
 }
 
 template <int W>
@@ -609,10 +607,7 @@ void JointPack<W>::solveVelocities(const JointStage& stage, std::span<const doub
   for (int l = 0; l < W; ++l) {
     open_.v[l] = l < lanes_ && wanted[of_[l]->bodies_.front()] > 0 ? 1 : 0;
   }
-  if (std::none_of(open_.v, open_.v + W, [](double open) { return open > 0; })) return;
-  gatherMotion<W>(ids_, stage.moved, bodies_);
-  solveOpenVelocities();
-  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+  solveOpenVelocities(stage);
 }
 
 template <int W>
@@ -626,7 +621,12 @@ void JointPack<W>::solveVelocities(const LaneBodies& lanes) {
 template <int W>
 void JointPack<W>::refineVelocities(const JointStage& stage) {
   for (int l = 0; l < W; ++l) open_.v[l] = l < lanes_ && !exact_[l] ? 1 : 0;
-  if (std::none_of(open_.v, open_.v + W, [](double o) { return o > 0; })) return;
+  solveOpenVelocities(stage);
+}
+
+template <int W>
+void JointPack<W>::solveOpenVelocities(const JointStage& stage) {
+  if (std::none_of(open_.v, open_.v + W, [](double open) { return open > 0; })) return;
   gatherMotion<W>(ids_, stage.moved, bodies_);
   solveOpenVelocities();
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);

@@ -1,7 +1,7 @@
 // Masses of links: of their parts, summed, seen from elsewhere.
 #include "scenes/models/mass.h"
 
-#include <Eigen/Eigenvalues>
+#include "physics/bodies/hull.h"
 
 namespace scenes {
 namespace {
@@ -55,16 +55,9 @@ PrincipalInertial principal(const ModelInertial& inertial) {
   PrincipalInertial out;
   out.frame.x = inertial.centre;
   const Mat3 inertia = (inertial.inertia + inertial.inertia.transpose()) / 2;
-  const Vec3 diagonal = inertia.diagonal();
-  if ((inertia - Mat3(diagonal.asDiagonal())).norm() <= 1e-12 * inertia.norm()) {
-    out.moments = diagonal;
-    return out;
-  }
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(inertia);
-  Mat3 axes = solver.eigenvectors();
-  if (axes.determinant() < 0) axes.col(2) *= -1;
+  const Mat3 axes = physics::principalAxes(inertia);
   out.frame.q = physics::Quat(axes).normalized();
-  out.moments = solver.eigenvalues();
+  out.moments = (axes.transpose() * inertia * axes).diagonal();
   return out;
 }
 

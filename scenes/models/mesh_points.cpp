@@ -65,14 +65,14 @@ bool less(const Vec3& a, const Vec3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
+}  // namespace
+
 std::string endingOf(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   return ending;
 }
-
-}  // namespace
 
 std::vector<Vec3> meshPoints(const std::string& path) {
   const std::string ending = endingOf(path);

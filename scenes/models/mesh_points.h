@@ -8,6 +8,8 @@
 
 namespace scenes {
 
+std::string endingOf(const std::string& path);  // ".obj": in small letters
+
 // The vertices of an OBJ or STL file, binary or text. Throws std::invalid_argument with what is
 // wrong with it.
 std::vector<physics::Vec3> meshPoints(const std::string& path);

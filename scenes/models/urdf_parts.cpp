@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -80,8 +79,7 @@ std::string UrdfParts::findFile(const Tag& tag) const {
 
 bool UrdfParts::readMesh(const Tag& tag, ModelPart& part) {
   const std::string file = findFile(tag);
-  std::string ending = fs::path(file).extension().string();
-  for (char& letter : ending) letter = static_cast<char>(std::tolower(letter));
+  const std::string ending = endingOf(file);
   if (ending != ".stl" && ending != ".obj") {
     tag.leaveOut(fmt::format("<mesh> of the kind '{}'", ending));
     return false;
