@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/base/console.h"
+#include "app/base/json.h"
 #include "scenes/read/input_error.h"
 
 namespace app {
@@ -79,10 +79,9 @@ void Progress::report(double seconds) {
   const double remaining = this->remaining(seconds);
   if (mode_ == ProgressMode::kBar) return drawBar(seconds, remaining);
   if (mode_ == ProgressMode::kJson) {
-    const nlohmann::ordered_json line = {{"scene", scene_},    {"stage", stage_},
-                                         {"done", done_},      {"total", total_},
-                                         {"seconds", seconds}, {"remaining", remaining}};
-    return note(line.dump() + "\n");
+    const Json line = {{"scene", scene_}, {"stage", stage_},    {"done", done_},
+                       {"total", total_}, {"seconds", seconds}, {"remaining", remaining}};
+    return note(jsonText(line) + "\n");
   }
   const int percent = static_cast<int>(100LL * done_ / std::max(1, total_));
   note(fmt::format("{}: {} {}/{} ({} %), {} {}\n", scene_, stage_, done_, total_, percent,

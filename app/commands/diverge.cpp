@@ -70,13 +70,9 @@ void drawParting(const DivergeOptions& options, const RunSource& a, const RunSou
 
 void writeDivergence(const DivergeOptions& options, const RunSource& a, const RunSource& b,
                      const Divergence& divergence) {
-  constexpr int kIndent = 1;
   const std::filesystem::path folder = options.common.outputFolder("diverge");
   makeFolder(folder);
-  writeFile(
-      folder / "diverge.json",
-      divergeJson(a, b, divergence).dump(kIndent, ' ', false, Json::error_handler_t::replace) +
-          "\n");
+  writeFile(folder / "diverge.json", jsonText(divergeJson(a, b, divergence), 1) + "\n");
   for (const char* old : {"difference.csv", "difference.png", "parting.png"}) {
     removeFile(folder / old);
   }

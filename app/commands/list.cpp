@@ -37,7 +37,7 @@ std::string asJson(const std::vector<scenes::Scene>& library,
                     {"claim", figure.claim},
                     {"path", figure.path}});
   }
-  return list.dump(2) + "\n";
+  return jsonText(list, 2) + "\n";
 }
 
 std::string asTable(const std::vector<scenes::Scene>& library,

@@ -25,7 +25,7 @@ ExitCode plan(const PlanOptions& options) {
     note("dbd: interrupted; nothing was printed\n");
     return ExitCode::kInterrupted;
   }
-  say(options.json ? planJson(plan).dump(2) + "\n" : planText(plan));
+  say(options.json ? jsonText(planJson(plan), 2) + "\n" : planText(plan));
   return plan.step.problem.empty() ? ExitCode::kDone : ExitCode::kCheckFailed;
 }
 

@@ -75,7 +75,7 @@ std::string asJson(const Tables& tables) {
                       {"meaning", meaningOf(table, key.name)}});
     }
   }
-  return list.dump(2) + "\n";
+  return jsonText(list, 2) + "\n";
 }
 
 // The table and those in it.

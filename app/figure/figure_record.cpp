@@ -60,7 +60,7 @@ void addVerdict(const scenes::FigureVerdict& verdict, FigureRecord& record) {
 
 std::optional<FigureRecord> readFigureRecord(const fs::path& file) {
   std::ifstream stream(file);
-  const Json json = Json::parse(stream, nullptr, false);
+  const Json json = tryParseJson(stream);
   if (!json.is_object() || !json.contains("figure")) return std::nullopt;
   try {
     FigureRecord record;
@@ -89,9 +89,7 @@ void writeFigureRecord(const FigureRecord& record, const fs::path& folder) {
                      {"asked", record.asked},       {"inputs", record.inputs},
                      {"measures", record.measures}, {"problem", record.problem},
                      {"seconds", record.seconds},   {"files", record.files}};
-  constexpr int kIndent = 1;
-  writeFile(folder / (record.name + ".json"),
-            json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFile(folder / (record.name + ".json"), jsonText(json, 1) + "\n");
 }
 
 }  // namespace app

@@ -125,7 +125,7 @@ GoldenRecord readGoldenRecord(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(path)) return record;
   try {
     std::ifstream file(path);
-    fillRecord(Json::parse(file), record);
+    fillRecord(parseJson(file), record);
   } catch (const Json::exception& error) {
     record = {};
     record.problem = fmt::format("{} cannot be read: {}", path.string(), error.what());
@@ -140,7 +140,7 @@ void writeGoldenRecord(const GoldenRecord& record, const std::filesystem::path& 
   }
   const Json json = {
       {"reason", record.reason}, {"frames", frames}, {"motion", toJson(record.motion)}};
-  writeFile(folder / kFile, json.dump(2) + "\n");
+  writeFile(folder / kFile, jsonText(json, 2) + "\n");
 }
 
 }  // namespace app

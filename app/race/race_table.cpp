@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "app/base/build_info.h"
+#include "app/base/json.h"
 #include "app/base/machine.h"
 #include "app/base/numbers.h"
 #include "app/run/run_record.h"
@@ -16,8 +16,6 @@
 namespace app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string row(const RaceTrack& track, const Race& race) {
   if (!track.ran()) {
@@ -161,7 +159,7 @@ std::string raceJson(const Race& race, const RaceLimits& limits, const std::stri
   }
   json["verdict"] = raceVerdict(race);
   json["film"] = film.empty() ? Json() : Json(film);
-  return json.dump(2) + "\n";
+  return jsonText(json, 2) + "\n";
 }
 
 }  // namespace app

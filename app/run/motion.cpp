@@ -137,12 +137,12 @@ void Motion::append(const scenes::Moment& moment) {
   file_.append(pose_, numbers.poses.data(), 1);
 }
 
-void Motion::commit(nlohmann::ordered_json about) {
+void Motion::commit(Json about) {
   about_ = {{"format", kFormat}, {"version", kVersion}, {"bodies", bodies_}, {"fps", fps_}};
   about_.update(about);
   addTexts(file_, "names", names_);
   addTexts(file_, "metric_names", scenes::numberNames(like_.metrics));
-  addTexts(file_, "about", {about_.dump()});
+  addTexts(file_, "about", {jsonText(about_)});
   file_.commit();
 }
 
@@ -153,7 +153,7 @@ Motion Motion::open(const std::filesystem::path& path) {
     std::string text(motion.file_.array(about).rowBytes(), '\0');
     motion.file_.read(about, 0, 1, text.data());
     text.resize(std::strlen(text.c_str()));
-    motion.about_ = nlohmann::ordered_json::parse(text, nullptr, false);
+    motion.about_ = tryParseJson(text);
   }
   if (!motion.about_.is_object() || motion.about_.value("format", "") != kFormat) {
     throw scenes::InputError(path.string() + ": it is no motion of `dbd simulate --motion`");

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "app/base/json.h"
 #include "app/base/npz.h"
 #include "scenes/moment.h"
 
@@ -37,11 +37,11 @@ class Motion {
   void fitTo(const scenes::Simulation& start);
 
   void append(const scenes::Moment& moment);
-  void commit(nlohmann::ordered_json about);
+  void commit(Json about);
 
   int frames() const { return static_cast<int>(file_.rows(pose_)); }
   bool hasContacts() const { return contact_ >= 0; }
-  const nlohmann::ordered_json& about() const { return about_; }
+  const Json& about() const { return about_; }
 
   // By processes that inherited this, of any frame that was there when they were asked for it.
   scenes::Moment moment(int frame) const;
@@ -62,7 +62,7 @@ class Motion {
   int pose_ = -1, velocity_ = -1, hash_ = -1, metrics_ = -1, arms_ = -1, contact_ = -1, end_ = -1;
   std::uint64_t contacts_ = 0;  // written so far
   int fps_ = 1;
-  nlohmann::ordered_json about_;
+  Json about_;
 };
 
 }  // namespace app

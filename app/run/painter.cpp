@@ -21,15 +21,14 @@ physics::Vec3 vectorFrom(const Json& json) {
 }  // namespace
 
 std::string Painter::task(int frame, int last, const scenes::MotionBounds& bounds) {
-  return Json{{"frame", frame},
-              {"last", last},
-              {"low", numbers(bounds.low)},
-              {"high", numbers(bounds.high)}}
-      .dump();
+  return jsonText({{"frame", frame},
+                   {"last", last},
+                   {"low", numbers(bounds.low)},
+                   {"high", numbers(bounds.high)}});
 }
 
 std::string Painter::draw(const std::string& task) {
-  const Json asked = Json::parse(task);
+  const Json asked = parseJson(task);
   const int frame = asked.at("frame").get<int>();
   if (!renderer_) renderer_ = openRenderer(job_.renderer);
   Stopwatch watch;
@@ -42,7 +41,7 @@ std::string Painter::draw(const std::string& task) {
   const render::Image& image = drawFrame(*renderer_, frame, moments);
   const double draw = watch.lap();
   render::writePng(image, frames_.file(frame), notesOf(record_, frame));
-  return Json{{"view", view}, {"draw", draw}, {"write", watch.lap()}}.dump();
+  return jsonText({{"view", view}, {"draw", draw}, {"write", watch.lap()}});
 }
 
 render::Picture Painter::view(int frame, const scenes::MotionBounds& bounds) {
@@ -68,10 +67,10 @@ std::optional<render::Renderer::Info> askRendererInfo() {
       [](const std::string&) {
         const auto renderer = openRenderer({kSide, kSide, render::Quality::kDraft, ""});
         const render::Renderer::Info told = renderer->info();
-        return Json{told.vendor, told.renderer, told.version}.dump();
+        return jsonText({told.vendor, told.renderer, told.version});
       },
       [&](int, const std::string& answer) {
-        const Json told = Json::parse(answer);
+        const Json told = parseJson(answer);
         info = render::Renderer::Info{told.at(0).get<std::string>(), told.at(1).get<std::string>(),
                                       told.at(2).get<std::string>()};
       });

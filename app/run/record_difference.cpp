@@ -33,7 +33,7 @@ std::string wordOf(const std::string& path) {
 
 std::string shown(const Json& value) {
   if (value.is_null()) return "none";
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return jsonText(value);
 }
 
 void compareJson(const std::string& path, const Json& was, const Json& is,

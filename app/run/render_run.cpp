@@ -73,7 +73,7 @@ class Drawing {
         crew_(
             std::min(job.threads, static_cast<int>(job.frames.size())),
             [this](const std::string& task) { return painter_.draw(task); },
-            [this](int, const std::string& answer) { take(Json::parse(answer)); }) {}
+            [this](int, const std::string& answer) { take(parseJson(answer)); }) {}
 
   void run() {
     result_.record.accuracy = Json();

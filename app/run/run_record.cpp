@@ -160,7 +160,7 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
 
 std::optional<RunRecord> readRecordFile(const std::filesystem::path& path) {
   std::ifstream file(path);
-  const Json json = Json::parse(file, nullptr, false);
+  const Json json = tryParseJson(file);
   if (!json.is_object()) return std::nullopt;
   try {
     RunRecord record;
@@ -199,8 +199,7 @@ void writeRecord(const RunRecord& record, const std::filesystem::path& folder) {
                      {"scene_path", record.scenePath},
                      {"scene_text", record.sceneText},
                      {"state_hashes", record.stateHashes}};
-  constexpr int kIndent = 1;
-  writeFile(folder / kFile, json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFile(folder / kFile, jsonText(json, 1) + "\n");
 }
 
 render::Quality parseQuality(const std::string& word) {

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/base/json.h"
 #include "render/renderer.h"
 #include "scenes/simulation.h"
 
 namespace app {
-
-using Json = nlohmann::ordered_json;
 
 struct RunRecord {
   // What the states depend on, and what the frames depend on beside them (null: nothing was drawn).

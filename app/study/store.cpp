@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "app/base/build_info.h"
+#include "app/base/json.h"
 #include "app/base/output_file.h"
 #include "app/commands/exit_code.h"
 
@@ -19,8 +19,6 @@ namespace app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 // The one list of what a trace holds, in the order of points.csv: `v(name, member)` for each.
 template <class V, class T>
 void fields(V&& v, T& t) {
@@ -170,11 +168,11 @@ std::string lineOf(const Trace& trace) {
   }
   json.json["program"] = thisProgram();
   if (!trace.samples.empty()) json.json["samples"] = trace.samples;
-  return json.json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(json.json) + "\n";
 }
 
 Trace parseTrace(const std::string& line) {
-  const Json json = Json::parse(line);
+  const Json json = parseJson(line);
   Trace trace;
   fields(FromJson{json}, trace);
   if (json.contains("failure")) {

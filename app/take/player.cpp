@@ -5,11 +5,11 @@
 
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/base/build_info.h"
 #include "app/base/html.h"
+#include "app/base/json.h"
 #include "app/commands/exit_code.h"
 #include "app/take/numbers.h"
 #include "render/geometry.h"
@@ -17,8 +17,6 @@
 namespace app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kSegments = 32;  // of round bodies
 constexpr const char* kScripts[] = {"take.js",   "view.js",     "shaders.js",
@@ -154,7 +152,7 @@ std::string aboutText(const Take& take, const scenes::Scene& scene) {
 
 // Text within a <script> element: nothing in it may look like the element's end.
 std::string asScript(const Json& json) {
-  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  std::string text = jsonText(json, -1, true);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) {
     text.replace(at, 1, "\\u003c");
   }

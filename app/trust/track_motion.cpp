@@ -1,8 +1,7 @@
 // Reads the arrays of a motion into a track.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "app/base/json.h"
 #include "app/base/npz.h"
 #include "app/trust/track.h"
 
@@ -47,7 +46,7 @@ Track readMotion(const std::filesystem::path& path) {
   track.hasVelocities = velocity >= 0 && file.rows(velocity) == file.rows(pose);
   if (!isOf(file, pose, bodies, kPoseNumbers)) refuse(path);
   if (track.hasVelocities && !isOf(file, velocity, bodies, kVelocityNumbers)) refuse(path);
-  const auto json = nlohmann::json::parse(textsOf(file, about).front(), nullptr, false);
+  const auto json = tryParseJson(textsOf(file, about).front());
   const int fps = json.is_object() ? json.value("fps", 0) : 0;
   if (fps < 1) refuse(path);
   std::vector<double> x(bodies * kPoseNumbers), v(bodies * kVelocityNumbers);

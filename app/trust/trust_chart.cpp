@@ -85,9 +85,7 @@ void writeCharts(const std::string& title, const std::vector<render::Chart>& cha
 }
 
 void writeTrust(const Trust& trust, const std::filesystem::path& folder) {
-  constexpr int kIndent = 1;
-  writeFile(folder / "trust.json",
-            trustJson(trust).dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFile(folder / "trust.json", jsonText(trustJson(trust), 1) + "\n");
   writeFile(folder / "difference.csv", trustCsv(trust));
   writeCharts(fmt::format("{}: accuracy {:g} beside {:g}", trust.plan.scene.name,
                           trust.plan.accuracy, trust.plan.accuracy / 10),

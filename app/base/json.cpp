@@ -1,0 +1,14 @@
+#include "app/base/json.h"
+
+namespace app {
+
+std::string jsonText(const Json& json, int indent, bool ascii) {
+  return json.dump(indent, ' ', ascii, Json::error_handler_t::replace);
+}
+
+Json parseJson(const std::string& text) { return Json::parse(text); }
+Json parseJson(std::istream& stream) { return Json::parse(stream); }
+Json tryParseJson(const std::string& text) { return Json::parse(text, nullptr, false); }
+Json tryParseJson(std::istream& stream) { return Json::parse(stream, nullptr, false); }
+
+}  // namespace app
