@@ -32,7 +32,7 @@ std::string countText(const scenes::Effect& e) {
   return e.rows > 0 ? fmt::format("{}, {} rows", text, e.rows) : text;
 }
 
-std::string shareText(const PlannedEffect& planned) {
+std::string shareOf(const PlannedEffect& planned) {
   if (planned.share) return fmt::format("{:.1f} %", 100 * *planned.share);
   return planned.within.empty() ? "" : "in " + planned.within;
 }
@@ -91,7 +91,7 @@ std::string planText(const Plan& plan) {
     const scenes::Effect& e = planned.effect;
     if (!e.on) continue;
     on += cut(fmt::format("{:<20}{:>22} {:>8} {:>11}  {}", e.name, countText(e),
-                          bytesText(planned.bytes), shareText(planned), e.why));
+                          bytesText(planned.bytes), shareOf(planned), e.why));
   }
   on += cut(fmt::format("{:<20}{:>22} {:>8} {:>9.1f} %  velocities, checks, bookkeeping",
                         "the rest", "", "", 100 * plan.rest));

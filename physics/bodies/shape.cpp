@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "physics/base/rotation.h"
 #include "physics/bodies/compound.h"
 #include "physics/bodies/hull.h"
 #include "physics/bodies/triangles.h"
 
 namespace physics {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 MassProperties of(const PointShape&) { return {}; }
 

@@ -14,7 +14,7 @@ namespace {
 
 // In lines of text.
 constexpr double kGutter = 0.5, kLabelGap = 1.05, kLineStep = 1.2, kRowGap = 0.55, kEdge = 0.1;
-constexpr float kLetterWidth = 0.53f;  // mean of the shipped font
+constexpr float kMeanLetter = 0.53f;  // mean of the shipped font
 constexpr float kTextSize = 34;        // px at the sheet's own width
 
 struct Row {
@@ -126,7 +126,7 @@ FigureLayout layOut(const FigureSheet& sheet, const std::vector<FigureTile>& til
 
 std::vector<std::string> wrap(const std::string& words, float size, int width) {
   const int letters =
-      std::max(1, static_cast<int>(static_cast<float>(width) / (kLetterWidth * size)));
+      std::max(1, static_cast<int>(static_cast<float>(width) / (kMeanLetter * size)));
   std::vector<std::string> lines;
   std::istringstream stream(words);
   for (std::string word; stream >> word;) {
