@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "render/shipped.h"
 #include "scenes/figure/figure_sheet.h"
 #include "scenes/models/read_model.h"
+#include "scenes/read/file_text.h"
 #include "scenes/read/glossary.h"
 #include "scenes/read/recipe.h"
 #include "scenes/read/value.h"
@@ -31,11 +30,9 @@ std::string readText(const std::string& path, const char* kind) {
   if (fs::is_directory(path, error)) {
     throw InputError(fmt::format("{}: expected a {} file, got a folder", path, kind));
   }
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in) throw InputError(fmt::format("{}: expected a {} file that can be read", path, kind));
-  return text.str();
+  const std::optional<std::string> text = fileText(path);
+  if (!text) throw InputError(fmt::format("{}: expected a {} file that can be read", path, kind));
+  return *text;
 }
 
 bool isPath(const std::string& scene) {

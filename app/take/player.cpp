@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "app/base/build_info.h"
 #include "app/base/html.h"
@@ -13,6 +11,7 @@
 #include "app/commands/exit_code.h"
 #include "app/take/numbers.h"
 #include "render/geometry.h"
+#include "scenes/read/file_text.h"
 
 namespace app {
 
@@ -25,12 +24,9 @@ constexpr const char* kScripts[] = {"take.js",   "view.js",     "shaders.js",
 
 std::string readAsset(const std::string& name) {
   const std::filesystem::path path = std::filesystem::path(scenes::assetFolder()) / "player" / name;
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in)
-    throw EnvironmentError(path.string() + ": it is needed for a player, and cannot be read");
-  return text.str();
+  const std::optional<std::string> text = scenes::fileText(path);
+  if (text) return *text;
+  throw EnvironmentError(path.string() + ": it is needed for a player, and cannot be read");
 }
 
 Json numbers(const render::Vec3f& v) { return {v.x(), v.y(), v.z()}; }

@@ -7,11 +7,11 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include "physics/bodies/shape.h"
+#include "scenes/read/file_text.h"
 
 namespace scenes {
 namespace {
@@ -81,14 +81,11 @@ std::vector<Vec3> meshPoints(const std::string& path) {
   }
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw std::invalid_argument("no such file");
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  if (!in) throw std::invalid_argument("cannot be read");
-  const std::string text = bytes.str();
-  const bool binary = ending == ".stl" && isBinaryStl(text);
+  const std::optional<std::string> text = fileText(path);
+  if (!text) throw std::invalid_argument("cannot be read");
+  const bool binary = ending == ".stl" && isBinaryStl(*text);
   std::vector<Vec3> points =
-      binary ? binaryStl(text) : linesOf(text, ending == ".stl" ? "vertex" : "v");
+      binary ? binaryStl(*text) : linesOf(*text, ending == ".stl" ? "vertex" : "v");
   for (const Vec3& point : points) {
     if (!point.allFinite()) throw std::invalid_argument("has a number that is not finite");
   }

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+
+#include "scenes/read/file_text.h"
 
 namespace scenes {
 namespace {
@@ -15,12 +15,9 @@ namespace fs = std::filesystem;
 constexpr int kMostFiles = 100;
 
 std::string textOf(const fs::path& path, const Tag& tag) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) tag.fail(fmt::format("no file '{}'", path.string()));
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  const std::optional<std::string> text = fileText(path.string());
+  if (!text) tag.fail(fmt::format("no file '{}' that can be read", path.string()));
+  return *text;
 }
 
 XmlElement rootOf(const fs::path& path, const Tag& tag, const char* expected) {

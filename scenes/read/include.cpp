@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "scenes/models/read_model.h"
 #include "scenes/read/expand.h"
+#include "scenes/read/file_text.h"
 #include "scenes/read/write_scene.h"
 
 namespace scenes {
@@ -79,11 +78,10 @@ Value Includer::read(const Value& name) {
     refuse(fmt::format("{} includes itself", path.string()));
   }
   if (++count > kMostIncludes) refuse(fmt::format("more than {} files", kMostIncludes));
-  std::ifstream in(path);
-  std::ostringstream text;
-  text << in.rdbuf();
-  texts += text.str();
-  Value tree = parse(text.str(), path.string());
+  const std::optional<std::string> text = fileText(path.string());
+  if (!text) refuse(fmt::format("{}: expected a file that can be read", path.string()));
+  texts += *text;
+  Value tree = parse(*text, path.string());
   noteFile(tree, path.string());
   open.push_back(path.string());
   run(tree);

@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "physics/base/rotation.h"
+#include "scenes/read/file_text.h"
 #include "scenes/read/settings_reader.h"
 #include "scenes/scene.h"
 
@@ -37,10 +36,9 @@ std::string findAsset(const Value& value, const Spot& spot, const char* folder) 
 }
 
 Value readAsset(const std::string& path) {
-  std::ifstream in(path);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return parseToml(text.str(), path);
+  const std::optional<std::string> text = fileText(path);
+  if (!text) throw InputError(path + ": expected a file that can be read");
+  return parseToml(*text, path);
 }
 
 void readBone(TableReader& reader, physics::Skeleton& skeleton) {

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "scenes/read/file_text.h"
 #include "scenes/read/value.h"
 #include "scenes/scene.h"
 
@@ -22,14 +21,9 @@ std::string referenceFolder() {
 }
 
 std::string readStudyText(const std::string& path) {
-  std::error_code error;
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in && !fs::is_directory(path, error)) text << in.rdbuf();
-  if (!in || fs::is_directory(path, error)) {
-    throw InputError(fmt::format("{}: expected a file that can be read", path));
-  }
-  return text.str();
+  const std::optional<std::string> text = fileText(path);
+  if (!text) throw InputError(fmt::format("{}: expected a file that can be read", path));
+  return *text;
 }
 
 std::vector<std::string> studyFiles(const std::string& folder) {
