@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "physics/constraints/axle.h"
@@ -87,6 +89,11 @@ class World {
   // changed, where a number is not finite or a quaternion is zero.
   bool setState(std::span<const Pose> poses, std::span<const Velocity> velocities);
   void setVelocity(BodyId body, const Velocity& velocity);
+  // All that the next step depends on. A World made alike that restores it goes on as this one,
+  // bit for bit. Throws std::invalid_argument where the bytes are not of such a World; this one is
+  // then not to be used any more.
+  std::string saved() const;
+  void restore(std::string_view bytes);
   // Orientation of bodies[1] in bodies[0]'s frame.
   void setDriveTarget(int drive, const Quat& target);
   void setArmTarget(int arm, const Vec3& target);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/base/rotation.h"
+#include "scenes/archive.h"
 #include "scenes/moment.h"
 #include "scenes/read/recipe.h"
 
@@ -138,6 +139,14 @@ bool Simulation::show(const Moment& moment) {
   impl_->frame = moment.frame;
   impl_->shown = moment;
   return true;
+}
+
+void Simulation::archive(physics::Archive& a) {
+  Impl& i = *impl_;
+  a(i.frame, i.iterations, i.restarts, i.fallbacks, i.asleep, i.accuracy, i.finite);
+  std::string world = a.reads() ? std::string() : i.built.world.saved();
+  a(world);
+  if (a.reads()) i.built.world.restore(world);
 }
 
 int Simulation::frame() const { return impl_->frame; }

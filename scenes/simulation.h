@@ -11,6 +11,10 @@
 #include "physics/world/measure.h"
 #include "scenes/scene.h"
 
+namespace physics {
+class Archive;
+}
+
 namespace scenes {
 
 // What one frame measures; the columns of the metrics CSV.
@@ -54,6 +58,11 @@ class Simulation {
   // is not finite or there are not as many as this scene has.
   Moment moment() const;
   bool show(const Moment& moment);
+
+  // All that the next frame depends on, to a Simulation of the same scene: it goes on bit for bit.
+  // Not of one that shows a Moment. A reader throws std::invalid_argument where the bytes are of
+  // another scene, and is then not to be used any more.
+  void archive(physics::Archive& a);
 
   int frame() const;
   bool isFinite() const;  // false once a step met a number that is not finite; the frame stays
@@ -99,7 +108,8 @@ class Checker {
     std::optional<Failure> failure;
   };
   std::vector<Verdict> verdicts() const;
-  bool hasFailed() const;  // in a frame so far; no later frame can mend that
+  bool hasFailed() const;             // in a frame so far; no later frame can mend that
+  void archive(physics::Archive& a);  // to a Checker of the same scene
 
  private:
   struct Impl;

@@ -8,6 +8,7 @@
 #include "physics/accurate/step_choice.h"
 #include "physics/accurate/symmetric_step.h"
 #include "physics/accurate/tableau.h"
+#include "physics/base/archive.h"
 #include "physics/model/report.h"
 
 namespace physics {
@@ -24,6 +25,7 @@ class Extrapolation {
   // The same with a given order 2k and steps.
   bool advanceBy(IslandState& state, double time, int columns, int steps, const Surroundings& world,
                  const TrialPoses& trial);
+  void archive(Archive& a) { a(step_, choice_); }
 
  private:
   bool run(int n, double whole, const Surroundings& world, const TrialPoses& trial);

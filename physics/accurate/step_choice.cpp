@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "physics/base/archive.h"
+
 namespace physics {
 namespace {
 
@@ -29,6 +31,8 @@ double rootOf(double x, int n) {
   }
   return scale * root;
 }
+
+void StepChoice::archive(Archive& a) { a(columns_, wanted_); }
 
 double StepChoice::next(double left, double time) {
   if (!(wanted_ > 0)) wanted_ = time;

@@ -5,6 +5,8 @@
 
 namespace physics {
 
+class Archive;
+
 // A step may err by this part of the accuracy: errors add up, and grow with the motion.
 inline constexpr double kShareOfStep = 0.01;
 
@@ -24,6 +26,7 @@ class StepChoice {
   // `coarser`: the error of one column less.
   void accept(double step, double error, double coarser, double allowed, double time);
   void forget() { wanted_ = 0; }
+  void archive(Archive& a);
 
  private:
   double stepFor(double step, double error, int columns, double allowed) const;

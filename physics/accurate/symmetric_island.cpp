@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "physics/accurate/symmetric_step.h"
+#include "physics/base/archive.h"
 #include "physics/base/rotation.h"
 #include "physics/bodies/shape.h"
 
@@ -182,5 +183,11 @@ void SymmetricStep::takeSpins(IslandState& state) const {
 }
 
 void SymmetricStep::restart() { present_ = first_; }
+
+// `set` makes the rest anew.
+void SymmetricStep::archive(Archive& a) {
+  a(size_, levers_, present_.h);
+  for (auto& [next, change] : present_.pulls) a(next, change);
+}
 
 }  // namespace physics

@@ -79,6 +79,7 @@ class SymmetricStep {
   // after `set`.
   bool project(const IslandState& state, double tolerance, const Surroundings& world,
                const TrialPoses& trial);
+  void archive(Archive& a);
 
  private:
   static constexpr int kMostIterations = 16;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/base/archive.h"
 #include "physics/base/profile.h"
 #include "physics/collision/mesh_contacts.h"
 #include "physics/collision/narrow.h"
@@ -316,6 +317,11 @@ Collider::Counts Collider::counts() const {
   if (!impl_) return {};
   return {impl_->narrowPhaseCalls, impl_->pairs.broadPhaseCalls(),
           static_cast<int>(impl_->pairs.watches().size())};
+}
+
+// The result of the last look is copied anew from what was found.
+void Collider::archive(Archive& a) {
+  if (impl_) a(impl_->pairs, impl_->narrowPhaseCalls);
 }
 
 std::size_t Collider::bytes() const {

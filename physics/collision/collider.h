@@ -41,6 +41,7 @@ struct Manifold {
   std::array<ContactPoint, kMaxPoints> points;
 };
 
+class Archive;
 class Collider {
  public:
   Collider();
@@ -97,6 +98,7 @@ class Collider {
   };
   Counts counts() const;
   std::size_t bytes() const;  // held now
+  void archive(Archive& a);   // of the same shapes, added and ignored alike
 
  private:
   struct Impl;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "physics/base/archive.h"
 #include "physics/collision/broad_phase.h"
 #include "physics/collision/watch.h"
 
@@ -28,6 +29,7 @@ class Pairs {
   void wake(std::span<const BodyId> bodies);
 
   bool canTouch() const;  // some pair is wanted
+  void archive(Archive& a);
   std::size_t bytes() const;
 
   const std::vector<Item>& items() const { return items_; }

@@ -92,9 +92,17 @@ bool isAsleep(const WorldState& w, const Pair& pair) {
   return w.sleep.asleep[pair.a] || w.sleep.asleep[pair.b];
 }
 
+void makeRoom(Sleep& sleep, std::size_t bodies) {
+  sleep.still.resize(bodies, 0);
+  sleep.asleep.resize(bodies, 0);
+  sleep.island.resize(bodies, kWorldBody);
+}
+
+}  // namespace
+
 // What steps from now on, and what only stays in it for its turn or its gravity.
 void listAwake(WorldState& w) {
-  const auto isAwake = [&](BodyId i) { return !w.sleep.asleep[i]; };
+  const auto isAwake = [&](BodyId i) { return w.sleep.count == 0 || !w.sleep.asleep[i]; };
   Bodies& b = w.bodies;
   b.active.clear();
   b.anisotropic.clear();
@@ -119,14 +127,6 @@ void listAwake(WorldState& w) {
   w.local.full = false;
   w.takeActiveMask();
 }
-
-void makeRoom(Sleep& sleep, std::size_t bodies) {
-  sleep.still.resize(bodies, 0);
-  sleep.asleep.resize(bodies, 0);
-  sleep.island.resize(bodies, kWorldBody);
-}
-
-}  // namespace
 
 bool sleeps(const Settings& settings) {
   return settings.sleep && settings.leavesOut && settings.stepping != Stepping::kStatic &&

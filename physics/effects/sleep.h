@@ -17,6 +17,9 @@ bool sleeps(const Settings& settings);
 // After a step.
 void fallAsleep(WorldState& world, StepReport& report);
 
+// Lists anew what steps, after Sleep::asleep.
+void listAwake(WorldState& world);
+
 // Islands of bodies that callAwake() named step again, from now on.
 void wakeCalled(WorldState& world);
 

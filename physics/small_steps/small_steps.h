@@ -23,6 +23,7 @@
 
 namespace physics {
 
+class Archive;
 class SmallSteps {
  public:
   SmallSteps();
@@ -40,6 +41,7 @@ class SmallSteps {
   void forget();                      // multipliers and contacts: the state came from elsewhere
   void topologyChanged();
   std::size_t bytes() const;
+  void archive(Archive& a, Model& model);  // the model's own comes before
 
  private:
   struct Batch;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "physics/base/archive.h"
+
 namespace physics {
 
 Articulation::Articulation(std::span<const JointRef> refs, const Kinds& kinds,
@@ -42,6 +44,11 @@ bool Articulation::hasLoop() const {
 }
 
 void Articulation::forget() { std::fill(pulls_.begin(), pulls_.end(), Pull{}); }
+
+void Articulation::archive(Archive& a) {
+  for (auto& [lambda, arm, linear] : pulls_) a(lambda, arm, linear);
+  a(isOpened_);
+}
 
 template <class F>
 void JointPacks::forEach(F&& f) {

@@ -46,6 +46,7 @@ struct JointResponse {
   }
 };
 
+class Archive;
 class Articulation {
  public:
   // `refs` in the table's order; `masses` by BodyId tell which bodies move.
@@ -62,6 +63,7 @@ class Articulation {
   void setOpened(bool opened) { isOpened_ = opened; }
   bool hasLoop() const;  // of bodies, all that do not move being one
   void forget();         // what it pulled with in the last substep
+  void archive(Archive& a);
 
  private:
   template <int W>

@@ -172,6 +172,15 @@ double Deformable::turn(const Configuration& at) const {
   return most;
 }
 
+void Deformable::goOn(const Kinds& kinds) {
+  forEachKind(kinds, [&](const auto& kind) {
+    using C = typename std::decay_t<decltype(kind)>::Item;
+    for (SweptRow<C>& swept : std::get<std::vector<SweptRow<C>>>(rows_)) {
+      swept.lambda = kind.set.lambda[swept.item].total;
+    }
+  });
+}
+
 void Deformable::finish(Kinds& kinds, double dt) const {
   forEachKind(kinds, [&](auto& kind) {
     using C = typename std::decay_t<decltype(kind)>::Item;

@@ -74,6 +74,7 @@ class Deformable {
   double turn(const Configuration& at) const;
   // Writes the multipliers back to the kinds' sets.
   void finish(Kinds& kinds, double dt) const;
+  void goOn(const Kinds& kinds);  // from the multipliers that stand there
 
  private:
   void evaluateRows(const JointStage& stage, bool first);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scenes/archive.h"
 #include "scenes/measure/culprit.h"
 #include "scenes/measure/sampler.h"
 
@@ -157,6 +158,14 @@ std::vector<Checker::Verdict> Checker::verdicts() const {
   std::vector<Verdict> verdicts;
   for (const Watch& watch : impl_->watches) verdicts.push_back(judge(watch));
   return verdicts;
+}
+
+void Checker::archive(physics::Archive& a) {
+  a(impl_->sampler);
+  for (Watch& watch : impl_->watches) {
+    auto& [most, mostTime, least, leastTime, seen] = watch.extremes;
+    a(most, mostTime, least, leastTime, seen, watch.failure);
+  }
 }
 
 bool Checker::hasFailed() const {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scenes/archive.h"
+
 namespace scenes {
 
 void Sampler::observe(const Simulation& simulation) {
@@ -17,6 +19,10 @@ void Sampler::observe(const Simulation& simulation) {
 
 Sample Sampler::sample(const Simulation& simulation, std::vector<physics::BodyId> bodies) const {
   return {simulation, now_, start_, before_, startPoses_, largestKinetic_, std::move(bodies)};
+}
+
+void Sampler::archive(physics::Archive& a) {
+  a(now_, start_, before_, startPoses_, largestKinetic_);
 }
 
 std::vector<physics::BodyId> matchingBodies(const Simulation& simulation,

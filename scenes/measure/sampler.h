@@ -16,6 +16,7 @@ class Sampler {
   // Of the frame observed last. `bodies`: those that the metric is about.
   Sample sample(const Simulation& simulation, std::vector<physics::BodyId> bodies) const;
   double time() const { return now_.time; }
+  void archive(physics::Archive& a);
 
  private:
   FrameMetrics now_, start_, before_;
