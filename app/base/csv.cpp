@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "physics/base/archive.h"
+
 namespace app {
 
 namespace {
@@ -30,6 +32,11 @@ double errorOf(const scenes::FrameMetrics& frame, const std::string& kind) {
 
 }  // namespace
 
+void archive(physics::Archive& a, StageSeconds& seconds) {
+  auto& [simulate, view, draw, write] = seconds;
+  a(simulate, view, draw, write);
+}
+
 std::string csvText(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string result = "\"";
@@ -42,21 +49,22 @@ std::string csvText(const std::string& text) {
 
 std::string trajectoryHeader() { return "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n"; }
 
-std::string trajectoryRows(const scenes::Simulation& simulation) {
-  const physics::Bodies& bodies = simulation.world().bodies();
-  const double time = static_cast<double>(simulation.frame()) / simulation.scene().fps;
-  const std::string start = fmt::format("{},{:.17g},", simulation.frame(), time);
+std::string trajectoryRows(const scenes::Simulation& of, int frame,
+                           std::span<const physics::Pose> poses,
+                           std::span<const physics::Velocity> velocities) {
+  const double time = static_cast<double>(frame) / of.scene().fps;
+  const std::string start = fmt::format("{},{:.17g},", frame, time);
   std::string rows;
-  for (physics::BodyId body = physics::kWorldBody + 1; body < bodies.size(); ++body) {
-    const physics::Vec3 x = bodies.pose[body].x;
-    const physics::Quat q = bodies.pose[body].q;
-    const physics::Velocity& velocity = bodies.velocity[body];
+  for (physics::BodyId body = physics::kWorldBody + 1; body < std::ssize(poses); ++body) {
+    const physics::Vec3 x = poses[body].x;
+    const physics::Quat q = poses[body].q;
+    const physics::Velocity& velocity = velocities[body];
     const double values[] = {x.x(),          x.y(),          x.z(),          q.w(),
                              q.x(),          q.y(),          q.z(),          velocity.v.x(),
                              velocity.v.y(), velocity.v.z(), velocity.w.x(), velocity.w.y(),
                              velocity.w.z()};
     rows += start;
-    rows += csvText(simulation.bodyName(body));
+    rows += csvText(of.bodyName(body));
     for (const double value : values) fmt::format_to(std::back_inserter(rows), ",{:.17g}", value);
     rows += '\n';
   }

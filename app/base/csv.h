@@ -1,6 +1,7 @@
 // The trajectory and metrics tables.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,17 @@ namespace app {
 struct StageSeconds {  // spent on one frame
   double simulate = 0, view = 0, draw = 0, write = 0;
 };
+void archive(physics::Archive& a, StageSeconds& seconds);
 
 // A field, in quotes where it needs them.
 std::string csvText(const std::string& text);
 
 std::string trajectoryHeader();
-// One row per body of the present frame, the world itself left out. Numbers carry 17 digits.
-std::string trajectoryRows(const scenes::Simulation& simulation);
+// One row per body of a frame, the world itself left out. Numbers carry 17 digits. `of`: what the
+// scene and its bodies are called.
+std::string trajectoryRows(const scenes::Simulation& of, int frame,
+                           std::span<const physics::Pose> poses,
+                           std::span<const physics::Velocity> velocities);
 
 // A row per frame. A constraint kind that is absent in a frame has the error 0 there.
 std::string metricsTable(const std::vector<scenes::FrameMetrics>& metrics,

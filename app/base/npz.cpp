@@ -5,15 +5,18 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <libdeflate.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 
 #include "app/base/npz_format.h"
 #include "app/base/output_file.h"
 #include "app/commands/exit_code.h"
-#include "physics/base/types.h"
+#include "physics/base/archive.h"
 
 namespace app {
 
@@ -53,26 +56,64 @@ std::uint64_t NpzArray::rowBytes() const {
   return bytes;
 }
 
+void NpzFile::openPart(const char* ending, int flags) {
+  if (path_.has_parent_path()) makeFolder(path_.parent_path());
+  part_ = path_.string() + ending;
+  descriptor_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | flags, 0666);
+  if (descriptor_ < 0) fail("write", errno);
+}
+
 NpzFile NpzFile::create(const std::filesystem::path& path) {
   NpzFile file(path);
-  if (path.has_parent_path()) makeFolder(path.parent_path());
-  file.part_ = path.string() + kPartial;
+  file.openPart(kPartial, O_TRUNC);
   file.half_ = std::make_unique<RemovedOnInterrupt>(file.part_.string());
-  file.descriptor_ = ::open(file.part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file.descriptor_ < 0) file.fail("write", errno);
   return file;
+}
+
+NpzFile NpzFile::begin(const std::filesystem::path& path) {
+  NpzFile file(path);
+  file.stays_ = true;
+  file.openPart(kBegun, O_TRUNC);
+  return file;
+}
+
+NpzFile NpzFile::goOn(const std::filesystem::path& path) {
+  NpzFile file(path);
+  file.stays_ = true;
+  file.openPart(kBegun, 0);
+  return file;
+}
+
+void NpzFile::archive(physics::Archive& a) {
+  for (Entry& entry : entries_) a(entry.rows, entry.rowsChecksum);
+  if (!a.reads()) return;
+  for (const Entry& entry : entries_) {
+    std::uint32_t checksum = 0;
+    try {
+      checksum = checksumOf(entry.data, entry.data + entry.rows * entry.array.rowBytes());
+    } catch (const std::out_of_range&) {
+      throw std::invalid_argument(part_.string() + " ends too early");
+    }
+    physics::require(checksum == entry.rowsChecksum,
+                     part_.string() + ": the checksum of '" + entry.array.name + "' is wrong");
+  }
+  struct stat status {};
+  const auto size = static_cast<off_t>(end());
+  const bool isLonger = ::fstat(descriptor_, &status) == 0 && status.st_size > size;
+  if (isLonger && ::ftruncate(descriptor_, size) != 0) fail("write", errno);
 }
 
 NpzFile::NpzFile(NpzFile&& other) noexcept
     : path_(std::move(other.path_)),
       part_(std::exchange(other.part_, {})),
       descriptor_(std::exchange(other.descriptor_, -1)),
+      stays_(other.stays_),
       entries_(std::move(other.entries_)),
       half_(std::move(other.half_)) {}
 
 NpzFile::~NpzFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!part_.empty()) ::unlink(part_.c_str());
+  if (!part_.empty() && !stays_) ::unlink(part_.c_str());
 }
 
 std::uint64_t NpzFile::end() const {
@@ -100,6 +141,7 @@ void NpzFile::append(int array, const void* rows, std::uint64_t count) {
   physics::require(fits, "an array has no room for more rows");
   const std::uint64_t bytes = entry.array.rowBytes();
   write(rows, count * bytes, entry.data + entry.rows * bytes);
+  entry.rowsChecksum = libdeflate_crc32(entry.rowsChecksum, rows, count * bytes);
   entry.rows += count;
 }
 
@@ -108,7 +150,7 @@ void NpzFile::commit() {
     const std::string head = arrayHead(entry.array, entry.rows);
     write(head.data(), head.size(), entry.head);
     entry.array.shape[0] = entry.rows;
-    entry.checksum = checksumOf(entry);
+    entry.checksum = checksumOf(entry.head, entry.data + entry.rows * entry.array.rowBytes());
     const std::string local = localHead(entry);
     write(local.data(), local.size(), entry.at);
   }

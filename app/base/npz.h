@@ -10,7 +10,13 @@
 
 #include "app/base/interrupt.h"
 
+namespace physics {
+class Archive;
+}
+
 namespace app {
+
+constexpr const char* kBegun = ".begun";
 
 struct NpzArray {
   std::string name;
@@ -26,6 +32,13 @@ class NpzFile {
   // Written under a temporary name until commit(); without it nothing is left behind. Throws
   // EnvironmentError.
   static NpzFile create(const std::filesystem::path& path);
+  // The same, but without commit() it stays, as path + kBegun; or as that is, whose arrays are then
+  // added as they were, before `archive` tells how many rows there are.
+  static NpzFile begin(const std::filesystem::path& path);
+  static NpzFile goOn(const std::filesystem::path& path);
+  // What goOn() needs beside the file. A reader drops all rows that were not there, and throws
+  // std::invalid_argument where the others are not as they were.
+  void archive(physics::Archive& a);
   // Throws InputError where it is not whole, which its checksums tell, or of a kind not read here.
   static NpzFile open(const std::filesystem::path& path);
 
@@ -52,12 +65,14 @@ class NpzFile {
     std::uint64_t room = 0, rows = 0;
     std::uint64_t at = 0, head = 0, data = 0;  // of the entry, of its .npy, of the first row
     std::uint32_t checksum = 0;
+    std::uint32_t rowsChecksum = 0;  // of those that were appended
   };
   explicit NpzFile(std::filesystem::path path) : path_(std::move(path)) {}
+  void openPart(const char* ending, int flags);
   std::uint64_t end() const;
   static std::string localHead(const Entry& entry);
   std::string directory() const;
-  std::uint32_t checksumOf(const Entry& entry) const;
+  std::uint32_t checksumOf(std::uint64_t from, std::uint64_t end) const;
   std::string bytesAt(std::uint64_t at, std::uint64_t count) const;
   Entry readEntry(const std::string& directory, std::size_t& at) const;
   void readDirectory();
@@ -67,6 +82,7 @@ class NpzFile {
 
   std::filesystem::path path_, part_;  // part_: empty once it has its name
   int descriptor_ = -1;
+  bool stays_ = false;  // without commit()
   std::vector<Entry> entries_;
   std::unique_ptr<RemovedOnInterrupt> half_;
 };

@@ -59,7 +59,8 @@ NpzFile NpzFile::open(const std::filesystem::path& path) {
     file.refuse("it is no whole .npz file");
   }
   for (const Entry& entry : file.entries_) {
-    if (file.checksumOf(entry) != entry.checksum) {
+    const std::uint64_t end = entry.data + entry.rows * entry.array.rowBytes();
+    if (file.checksumOf(entry.head, end) != entry.checksum) {
       file.refuse("the checksum of '" + entry.array.name + "' is wrong: the file is damaged");
     }
   }
@@ -124,11 +125,10 @@ NpzFile::Entry NpzFile::readEntry(const std::string& directory, std::size_t& at)
   return entry;
 }
 
-std::uint32_t NpzFile::checksumOf(const Entry& entry) const {
+std::uint32_t NpzFile::checksumOf(std::uint64_t from, std::uint64_t end) const {
   constexpr std::uint64_t kPiece = 1 << 20;
-  const std::uint64_t end = entry.data + entry.rows * entry.array.rowBytes();
   std::uint32_t checksum = 0;
-  for (std::uint64_t at = entry.head; at < end; at += kPiece) {
+  for (std::uint64_t at = from; at < end; at += kPiece) {
     const std::string piece = bytesAt(at, std::min(kPiece, end - at));
     checksum = libdeflate_crc32(checksum, piece.data(), piece.size());
   }

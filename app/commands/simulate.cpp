@@ -23,33 +23,82 @@ struct SimulateOptions {
   CommonOptions common;
   std::string trajectory, metrics, motion, stepsChart;
   TakeOptions take;
+  bool fresh = false;
 };
 
 // What a run leaves behind, in the order the frames come.
 struct Recording {
   std::optional<OutputFile> trajectory;
-  std::optional<Motion> motion;
+  std::optional<ChosenMotion> motion;
   std::optional<TakeFiles> take;
+  std::optional<StepsChart> steps;
   std::vector<scenes::FrameMetrics> metrics;
   std::vector<StageSeconds> seconds;
   std::vector<std::string> hashes;
   double simulateSeconds = 0;
+
+  void archive(physics::Archive& a) {  // what the motion does not tell
+    a(seconds, simulateSeconds);
+    if (steps) a(*steps);
+  }
 };
 
-PlayEnd playAndRecord(scenes::Simulation& simulation, scenes::Checker& checker, Progress& progress,
+void writeRows(const scenes::Simulation& of, int frame, std::span<const physics::Pose> poses,
+               std::span<const physics::Velocity> velocities, Recording& recording) {
+  if (!recording.trajectory) return;
+  recording.trajectory->write(trajectoryRows(of, frame, poses, velocities));
+}
+
+// From where a run that was stopped left off: what it recorded is told by its motion. Returns how
+// many frames that is.
+int goOn(scenes::Simulation& simulation, scenes::Checker& checker, ProgressMode progress,
+         Recording& recording) {
+  if (!recording.motion || !recording.motion->state) return 0;
+  (*recording.motion->state)(simulation, checker, recording);
+  noteGoesOn(simulation, progress);
+  const Motion& motion = recording.motion->motion;
+  for (int frame = 0; frame < motion.frames(); ++frame) {
+    const scenes::Moment moment = motion.moment(frame);
+    writeRows(simulation, frame, moment.poses, moment.velocities, recording);
+    recording.metrics.push_back(moment.metrics);
+    recording.hashes.push_back(hexadecimal(moment.stateHash));
+  }
+  return motion.frames();
+}
+
+PlayEnd playAndRecord(scenes::Simulation& simulation, scenes::Checker& checker, ProgressMode mode,
                       Recording& recording) {
-  return play(simulation, simulation.scene().frameCount(), [&](double stepSeconds) {
-    const Stopwatch watch;
-    if (recording.trajectory) recording.trajectory->write(trajectoryRows(simulation));
-    if (recording.motion) recording.motion->append(simulation.moment());
-    const double write = watch.seconds();
-    recording.metrics.push_back(simulation.metrics());
-    recording.hashes.push_back(hexadecimal(simulation.stateHash()));
-    recording.seconds.push_back({stepSeconds, 0, 0, write});
-    recording.simulateSeconds += stepSeconds;
-    checker.observe(simulation);
-    progress.advance();
-  });
+  ChosenMotion* const motion = recording.motion ? &*recording.motion : nullptr;
+  const bool isKept = motion != nullptr && motion->checkpoint;
+  const auto members = [&](physics::Archive& a) {
+    a(motion->motion, simulation, checker, recording);
+  };
+  const int shown = goOn(simulation, checker, mode, recording);
+  Progress progress(mode, simulation.scene().name, "simulating", simulation.scene().frameCount());
+  for (int frame = 0; frame < shown; ++frame) progress.advance();
+  const PlayEnd end = play(
+      simulation, simulation.scene().frameCount(),
+      [&](double stepSeconds) {
+        const Stopwatch watch;
+        const physics::Bodies& bodies = simulation.world().bodies();
+        if (motion != nullptr) motion->motion.append(simulation.moment());
+        writeRows(simulation, simulation.frame(), bodies.pose, bodies.velocity, recording);
+        const double write = watch.seconds();
+        recording.metrics.push_back(simulation.metrics());
+        recording.hashes.push_back(hexadecimal(simulation.stateHash()));
+        recording.seconds.push_back({stepSeconds, 0, 0, write});
+        recording.simulateSeconds += stepSeconds;
+        checker.observe(simulation);
+        if (isKept) motion->checkpoint->pass(members);
+        progress.advance();
+      },
+      shown);
+  if (end.code != ExitCode::kInterrupted) {
+    progress.finish();
+  } else if (isKept) {
+    motion->checkpoint->write(members);
+  }
+  return end;
 }
 
 // Frames that an earlier render left in the folder stay good when the states are the same.
@@ -65,6 +114,9 @@ void writeRunRecord(const scenes::Scene& scene, RunRecord record, const Recordin
   }
   if (record.picture.is_null()) {
     record.seconds = {{"simulate", recording.simulateSeconds}};
+    if (recording.motion && recording.motion->checkpoint) {
+      record.addSeconds("checkpoint", recording.motion->checkpoint->seconds());
+    }
     record.finished = end.code == ExitCode::kDone;
   }
   if (end.code == ExitCode::kDone) record.expectations = expectations;
@@ -98,19 +150,29 @@ void tell(const SimulateOptions& options, const scenes::Scene& scene, const Reco
 
 // Opened first: a long run must not end in vain.
 void openRecording(const SimulateOptions& options, const scenes::Simulation& start,
-                   const std::filesystem::path& folder, Recording& recording) {
+                   const RunRecord& record, const std::filesystem::path& folder,
+                   Recording& recording) {
   if (!options.trajectory.empty()) {
     recording.trajectory.emplace(options.trajectory);
     recording.trajectory->write(trajectoryHeader());
   }
   const int frames = start.scene().frameCount();
   if (options.take.any()) recording.take.emplace(options.take, start, frames);
+  if (!options.stepsChart.empty()) recording.steps.emplace(start);
   if (!options.motion.empty()) {
-    recording.motion.emplace(Motion::create(options.motion, start, frames, Motion::Keep::kAll));
+    recording.motion.emplace(
+        beginMotion(options.motion, start, frames, Motion::Keep::kAll, record, options.fresh));
   } else if (recording.take) {  // written under a temporary name only, and gone at the end
     const std::filesystem::path file = folder / "take.npz";
-    recording.motion.emplace(Motion::create(file, start, frames, Motion::Keep::kContacts));
+    recording.motion.emplace(
+        ChosenMotion{Motion::create(file, start, frames, Motion::Keep::kContacts), false, {}, {}});
   }
+}
+
+void tellInterrupted(const SimulateOptions& options, int frame) {
+  const char* goesOn =
+      options.motion.empty() ? "nothing was written" : "the same command goes on from there";
+  note(fmt::format("dbd: interrupted at frame {}; {}\n", frame, goesOn));
 }
 
 ExitCode simulate(const SimulateOptions& options) {
@@ -123,30 +185,26 @@ ExitCode simulate(const SimulateOptions& options) {
   noteWarnings(record);
   scenes::Simulation simulation(scene);
   simulation.setThreads(options.common.threadCount());
-  std::optional<StepsChart> steps;
-  if (!options.stepsChart.empty()) steps.emplace(simulation);
   const std::filesystem::path folder = options.common.outputFolder(scene.name);
   makeFolder(folder);
   Recording recording;
-  openRecording(options, simulation, folder, recording);
+  openRecording(options, simulation, record, folder, recording);
   std::optional<OutputFile> metrics;
   if (!options.metrics.empty()) metrics.emplace(options.metrics);
 
   scenes::Checker checker(scene);
-  Progress progress(progressMode, scene.name, "simulating", scene.frameCount());
-  const PlayEnd end = playAndRecord(simulation, checker, progress, recording);
+  const PlayEnd end = playAndRecord(simulation, checker, progressMode, recording);
   if (end.code == ExitCode::kInterrupted) {
-    note(fmt::format("dbd: interrupted at frame {}; nothing was written\n", simulation.frame()));
+    tellInterrupted(options, simulation.frame());
     return end.code;
   }
-  progress.finish();
   if (end.code == ExitCode::kDone) record.expectations = describeVerdicts(checker.verdicts());
   if (metrics) metrics->write(metricsTable(recording.metrics, recording.seconds));
   if (recording.trajectory) recording.trajectory->commit();
-  if (!options.motion.empty()) recording.motion->commit(describeMotion(scene, record));
-  if (recording.take) recording.take->write(scene, *recording.motion, scene.overlays);
+  if (!options.motion.empty()) commit(*recording.motion, describeMotion(scene, record));
+  if (recording.take) recording.take->write(scene, recording.motion->motion, scene.overlays);
   if (metrics) metrics->commit();
-  if (steps) steps->write(options.stepsChart);
+  if (recording.steps) recording.steps->write(options.stepsChart);
   writeRunRecord(scene, record, recording, end, folder);
   tell(options, scene, recording);
   if (!end.problem.empty()) note("dbd: " + end.problem + "\n");
@@ -175,6 +233,8 @@ void addSimulate(CLI::App& line, Action& action) {
       ->add_option("--steps-chart", options->stepsChart,
                    "Chart of the steps that islands take by the accuracy, over time")
       ->type_name("F.png");
+  command->add_flag("--fresh", options->fresh,
+                    "With --motion: begin anew where a run was stopped, instead of going on");
   addTakeOptions(*command, options->take);
   addCommon(*command, options->common);
   addHash(*command, options->common);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "app/base/console.h"
+
 namespace app {
 
 namespace {
@@ -56,15 +58,42 @@ std::optional<Motion> openEarlier(const scenes::Simulation& start, const RenderJ
 
 }  // namespace
 
+ChosenMotion beginMotion(const std::filesystem::path& path, const scenes::Simulation& start,
+                         int frames, Motion::Keep keep, const RunRecord& record, bool fresh) {
+  Checkpoint checkpoint(path, Checkpoint::runOf(record, frames, static_cast<int>(keep)));
+  if (std::optional<physics::Archive> state = fresh ? std::nullopt : checkpoint.open()) {
+    try {
+      Motion motion = Motion::goOn(path, start, frames, keep);
+      (*state)(motion);
+      return {std::move(motion), false, std::move(checkpoint), state};
+    } catch (const std::invalid_argument& error) {
+      note(fmt::format("dbd: warning: {}; it is simulated from the beginning\n", error.what()));
+    }
+  }
+  checkpoint.remove();
+  return {Motion::begin(path, start, frames, keep), false, std::move(checkpoint), std::nullopt};
+}
+
 ChosenMotion chooseMotion(const scenes::Simulation& start, const RenderJob& job,
                           const RunRecord& record) {
-  if (!job.from.empty()) return {openGiven(start, job), true};
+  if (!job.from.empty()) return {openGiven(start, job), true, {}, {}};
+  const std::filesystem::path file = job.folder / kMotionFile;
   if (std::optional<Motion> earlier = openEarlier(start, job, record)) {
-    return {std::move(*earlier), true};
+    Checkpoint(file, {}).remove();  // of a run that was killed after its motion was whole
+    return {std::move(*earlier), true, {}, {}};
   }
   const auto keep = wantsContacts(job) ? Motion::Keep::kContacts : Motion::Keep::kPoses;
-  return {Motion::create(job.folder / kMotionFile, start, framesNeeded(start.scene(), job), keep),
-          false};
+  return beginMotion(file, start, framesNeeded(start.scene(), job), keep, record, job.fresh);
+}
+
+void commit(ChosenMotion& motion, const Json& about) {
+  motion.motion.commit(about);
+  if (motion.checkpoint) motion.checkpoint->remove();
+}
+
+void noteGoesOn(const scenes::Simulation& simulation, ProgressMode progress) {
+  if (progress == ProgressMode::kNone || progress == ProgressMode::kJson) return;
+  note(fmt::format("{}: goes on from frame {}\n", simulation.scene().name, simulation.frame()));
 }
 
 Motion drawnMotion(const scenes::Simulation& start, const RenderJob& job) {

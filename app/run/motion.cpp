@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "app/base/build_info.h"
+#include "physics/base/archive.h"
 #include "physics/bodies/compound.h"
 #include "physics/bodies/triangles.h"
 #include "scenes/read/input_error.h"
@@ -95,7 +96,23 @@ void addTexts(NpzFile& file, const std::string& name, const std::vector<std::str
 
 Motion Motion::create(const std::filesystem::path& path, const scenes::Simulation& start,
                       int frames, Keep keep) {
-  Motion motion(NpzFile::create(path));
+  return fill(NpzFile::create(path), start, frames, keep);
+}
+
+Motion Motion::begin(const std::filesystem::path& path, const scenes::Simulation& start, int frames,
+                     Keep keep) {
+  return fill(NpzFile::begin(path), start, frames, keep);
+}
+
+Motion Motion::goOn(const std::filesystem::path& path, const scenes::Simulation& start, int frames,
+                    Keep keep) {
+  return fill(NpzFile::goOn(path), start, frames, keep);
+}
+
+void Motion::archive(physics::Archive& a) { a(file_, contacts_); }
+
+Motion Motion::fill(NpzFile empty, const scenes::Simulation& start, int frames, Keep keep) {
+  Motion motion(std::move(empty));
   motion.setStart(start);
   const MomentNumbers numbers = numbersOf(motion.like_);
   const auto f = static_cast<std::uint64_t>(frames);

@@ -30,6 +30,13 @@ class Motion {
   // For up to `frames` frames of what begins as `start`. Nothing is left without commit().
   static Motion create(const std::filesystem::path& path, const scenes::Simulation& start,
                        int frames, Keep keep);
+  // The same, but without commit() it stays for goOn() of the same.
+  static Motion begin(const std::filesystem::path& path, const scenes::Simulation& start,
+                      int frames, Keep keep);
+  // After `archive` has read how much of it there is.
+  static Motion goOn(const std::filesystem::path& path, const scenes::Simulation& start, int frames,
+                     Keep keep);
+  void archive(physics::Archive& a);
   // Throws InputError where it is no whole motion.
   static Motion open(const std::filesystem::path& path);
 
@@ -49,6 +56,7 @@ class Motion {
 
  private:
   explicit Motion(NpzFile file) : file_(std::move(file)) {}
+  static Motion fill(NpzFile file, const scenes::Simulation& start, int frames, Keep keep);
   void findArrays();
   void requireShapes() const;
   void setStart(const scenes::Simulation& start);

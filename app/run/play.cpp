@@ -38,12 +38,17 @@ PlayedStep next(scenes::Simulation& simulation, const PlayEngine* engine) {
 }  // namespace
 
 PlayEnd play(scenes::Simulation& simulation, int frames,
-             const std::function<bool(const PlayedStep&)>& visit, const PlayEngine* engine) {
+             const std::function<bool(const PlayedStep&)>& visit, const PlayEngine* engine,
+             int shown) {
   PlayEnd end;
   PlayedStep step;
-  while (true) {
-    const bool goesOn = visit(step);
-    if (++end.frames >= frames || !goesOn) return end;
+  bool goesOn = true;
+  end.frames = shown;
+  if (shown == 0) {
+    goesOn = visit(step);
+    ++end.frames;
+  }
+  while (goesOn && end.frames < frames) {
     if (interrupted()) {
       end.code = ExitCode::kInterrupted;
       return end;
@@ -55,15 +60,19 @@ PlayEnd play(scenes::Simulation& simulation, int frames,
       end.problem = describe(simulation, *step.report.notFinite);
       return end;
     }
+    goesOn = visit(step);
+    ++end.frames;
   }
+  return end;
 }
 
 PlayEnd play(scenes::Simulation& simulation, int frames,
-             const std::function<void(double stepSeconds)>& visit) {
-  return play(simulation, frames, [&](const PlayedStep& step) {
+             const std::function<void(double stepSeconds)>& visit, int shown) {
+  const auto visitAll = [&](const PlayedStep& step) {
     visit(step.wall);
     return true;
-  });
+  };
+  return play(simulation, frames, visitAll, nullptr, shown);
 }
 
 }  // namespace app

@@ -31,13 +31,14 @@ struct PlayEngine {
 };
 
 // Shows frames 0..frames-1 to `visit`, until it says false. Null engine: the World steps. The one
-// loop over steps of all commands.
+// loop over steps of all commands. `shown`: so many were shown before, and the simulation stands at
+// the last of them.
 PlayEnd play(scenes::Simulation& simulation, int frames,
              const std::function<bool(const PlayedStep&)>& visit,
-             const PlayEngine* engine = nullptr);
+             const PlayEngine* engine = nullptr, int shown = 0);
 
-// Shows frames 0..frames-1 to `visit`, with the seconds spent in stepping to each.
+// The same, with the seconds spent in stepping to each.
 PlayEnd play(scenes::Simulation& simulation, int frames,
-             const std::function<void(double stepSeconds)>& visit);
+             const std::function<void(double stepSeconds)>& visit, int shown = 0);
 
 }  // namespace app

@@ -107,22 +107,42 @@ class Drawing {
     if (fits()) simulation_.setThreads(job_.threads);  // nobody draws yet
     Progress stepping(fits() ? job_.progress : ProgressMode::kNone, scene.name, "simulating",
                       frames);
-    double seconds = 0;
-    result_.end = play(simulation_, frames, [&](double stepSeconds) {
-      seconds += stepSeconds;
-      checker_.observe(simulation_);
-      const scenes::Moment moment = simulation_.moment();
-      motion_.motion.append(moment);
-      include(moment);
-      stepping.advance();
-    });
+    double seconds = 0;  // of all runs that it took
+    const auto members = [&](physics::Archive& a) {
+      a(motion_.motion, seconds, simulation_, checker_);
+    };
+    const int shown = goOn(seconds);
+    for (int frame = 0; frame < shown; ++frame) stepping.advance();
+    result_.end = play(
+        simulation_, frames,
+        [&](double stepSeconds) {
+          seconds += stepSeconds;
+          checker_.observe(simulation_);
+          const scenes::Moment moment = simulation_.moment();
+          motion_.motion.append(moment);
+          motion_.checkpoint->pass(members);
+          include(moment);
+          stepping.advance();
+        },
+        shown);
+    if (result_.end.code == ExitCode::kInterrupted) return motion_.checkpoint->write(members);
     result_.record.addSeconds("simulate", seconds);
-    if (result_.end.code == ExitCode::kInterrupted) return;
+    result_.record.addSeconds("checkpoint", motion_.checkpoint->seconds());
     if (fits()) stepping.finish();
     if (result_.end.frames == scene.frameCount()) {
       result_.record.expectations = describeVerdicts(checker_.verdicts());
     }
-    motion_.motion.commit(describeMotion(simulation_.scene(), result_.record));
+    commit(motion_, describeMotion(simulation_.scene(), result_.record));
+  }
+
+  // Where a run that was stopped had come to. Returns how many frames it leaves.
+  int goOn(double& seconds) {
+    if (!motion_.state) return 0;
+    (*motion_.state)(seconds, simulation_, checker_);
+    const int frames = motion_.motion.frames();
+    noteGoesOn(simulation_, job_.progress);
+    for (int frame = 0; frame < frames; ++frame) include(motion_.motion.moment(frame));
+    return frames;
   }
 
   void showAgain() {

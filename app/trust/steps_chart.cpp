@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/trust/trust_chart.h"
+#include "physics/base/archive.h"
 #include "scenes/view/palette.h"
 
 namespace app {
@@ -34,6 +35,13 @@ void StepsChart::take(const physics::IslandSteps& told) {
   frame.accepted += told.steps.accepted;
   frame.rejected += told.steps.rejected;
 }
+
+void archive(physics::Archive& a, StepsChart::Told& told) {
+  auto& [time, accepted, rejected] = told;
+  a(time, accepted, rejected);
+}
+
+void StepsChart::archive(physics::Archive& a) { a(islands_); }
 
 double StepsChart::timeOf(int frame) const {
   return static_cast<double>(frame) / simulation_.scene().fps;

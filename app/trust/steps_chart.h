@@ -9,6 +9,10 @@
 #include "render/chart.h"
 #include "scenes/simulation.h"
 
+namespace physics {
+class Archive;
+}
+
 namespace app {
 
 // Listens to the steps that this thread makes of a simulation, as long as it lives.
@@ -21,6 +25,7 @@ class StepsChart {
   // An island by an island where they are few, else the shortest and the longest; below, how many
   // steps all together took, and how many were rejected.
   void write(const std::filesystem::path& file) const;
+  void archive(physics::Archive& a);  // of what it has heard so far
 
  private:
   struct Told {       // in one frame
@@ -28,6 +33,7 @@ class StepsChart {
     int accepted = 0, rejected = 0;
     double mean() const { return time / accepted; }
   };
+  friend void archive(physics::Archive& a, Told& told);
   using Frames = std::map<int, Told>;
 
   void take(const physics::IslandSteps& told);

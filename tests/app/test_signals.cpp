@@ -37,7 +37,7 @@ steps = [1, 8, 64, 512, 4096]
 class Signals : public Program {
  protected:
   static constexpr const char* kRender =
-      "render drop.toml --quiet --quality draft --size 160x90 --set duration=2 ";
+      "render drop.toml --quiet --quality draft --size 160x90 --set duration=5 ";
 
   void expectNothingHalf(const fs::path& where) const {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder / where)) {

@@ -1,0 +1,91 @@
+// Checkpoints: when they are written, and what stands before the state.
+#include "app/run/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include "app/base/build_info.h"
+#include "app/base/output_file.h"
+#include "scenes/read/file_text.h"
+
+namespace app {
+
+namespace {
+
+const std::string kMagic = "dbd checkpoint 1\n";
+constexpr double kShare = 0.02;  // of a run's time, at the most
+constexpr double kFirst = 0.1;   // s before the first: what one takes is not known yet
+
+// Of bytes that end in their own hash; none: they do not.
+std::optional<std::string_view> withoutHash(std::string_view bytes) {
+  const std::size_t hash = hashText("").size();
+  if (bytes.size() < kMagic.size() + hash || !bytes.starts_with(kMagic)) return std::nullopt;
+  const std::string_view state = bytes.substr(0, bytes.size() - hash);
+  if (hashText(std::string(state)) != bytes.substr(state.size())) return std::nullopt;
+  return state.substr(kMagic.size());
+}
+
+RunRecord recordOf(const Json& run) {
+  RunRecord record;
+  record.program = run.value("program", Json());
+  record.scene = run.value("scene", Json());
+  record.settings = run.value("settings", Json());
+  return record;
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(const std::filesystem::path& motion, Json run)
+    : motion_(motion), file_(motion.string() + ".state"), run_(std::move(run)), wait_(kFirst) {}
+
+Json Checkpoint::runOf(const RunRecord& record, int frames, int keeps) {
+  return {{"program", record.program},
+          {"scene", record.scene},
+          {"settings", record.settings},
+          {"frames", frames},
+          {"keeps", keeps}};
+}
+
+std::optional<physics::Archive> Checkpoint::open() {
+  bytes_ = scenes::fileText(file_.string()).value_or("");
+  const std::optional<std::string_view> state = withoutHash(bytes_);
+  if (!state) return std::nullopt;
+  physics::Archive archive(*state);
+  std::string text;
+  archive(text);
+  const Json was = Json::parse(text, nullptr, false);
+  if (!recordOf(was).sameStates(recordOf(run_))) refuse(was);
+  if (was != run_) return std::nullopt;
+  return archive;
+}
+
+void Checkpoint::refuse(const Json& was) const {
+  const std::vector<std::string> differences = differencesOf(recordOf(was), recordOf(run_));
+  throw scenes::InputError(
+      fmt::format("{} is of a run that was stopped and differs in (was -> would be)\n  {}\nNothing "
+                  "was deleted. --fresh begins anew.",
+                  file_.string(), fmt::join(differences, "\n  ")));
+}
+
+void Checkpoint::pass(const Members& members) {
+  if (sinceLast_.seconds() >= wait_) write(members);
+}
+
+void Checkpoint::write(const Members& members) {
+  const Stopwatch watch;
+  std::string& bytes = bytes_;
+  bytes = kMagic;
+  physics::Archive archive(bytes);
+  std::string run = run_.dump(-1, ' ', false, Json::error_handler_t::replace);
+  archive(run);
+  members(archive);
+  bytes += hashText(bytes);
+  writeFile(file_, bytes);
+  const double took = watch.seconds();
+  seconds_ += took;
+  wait_ = took / kShare;
+  sinceLast_ = Stopwatch();
+}
+
+void Checkpoint::remove() { removeFile(file_); }
+
+}  // namespace app
