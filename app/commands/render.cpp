@@ -134,15 +134,15 @@ std::string summary(const scenes::Scene& scene, const RenderJob& job, const Rend
 }
 
 // The scene that is named, or else the one that the motion was made of, with its overrides.
-scenes::Scene readScene(const RenderOptions& options) {
-  if (!options.common.scene.empty()) return options.common.readScene();
+scenes::Scene readScene(const RenderOptions& options, const std::vector<std::string>& overrides) {
+  CommonOptions common = options.common;
+  common.overrides = overrides;
+  if (!common.scene.empty()) return common.readScene();
   if (options.from.empty()) throw scenes::InputError("SCENE or --from F is required");
   const Json about = Motion::open(options.from).about();
-  CommonOptions common = options.common;
   common.scene = about.value("path", "");
   common.overrides = about.value("scene", Json::object()).value("overrides", common.overrides);
-  common.overrides.insert(common.overrides.end(), options.common.overrides.begin(),
-                          options.common.overrides.end());
+  common.overrides.insert(common.overrides.end(), overrides.begin(), overrides.end());
   return common.readScene();
 }
 
@@ -210,7 +210,10 @@ ExitCode renderScene(RenderOptions options) {
     recorded = openRecord(options.common.scene);
     takeOver(*recorded, options);
   }
-  scenes::Scene scene = readScene(options);
+  const auto read = [&](const std::vector<std::string>& overrides) {
+    return readScene(options, overrides);
+  };
+  scenes::Scene scene = read(options.common.overrides);
   RenderJob job = makeJob(options, scene);
   if (recorded && recorded->picture.contains("trusted_until")) {
     job.view.trustedUntil = recorded->picture.at("trusted_until").get<double>();
@@ -223,7 +226,7 @@ ExitCode renderScene(RenderOptions options) {
   }
   std::optional<Trust> trust;
   if (options.trust) {
-    const TrustPlan plan = planTrust(scene.path, scene.overrides);
+    const TrustPlan plan = planTrust(read, options.common.overrides);
     scene = plan.scene;  // at the accuracy that is judged
     trust = measureTrust(plan, job.threads, job.progress);
     job.view.hud = true;

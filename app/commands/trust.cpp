@@ -70,7 +70,13 @@ ExitCode drawTrust(const TrustOptions& options, const Trust& trust,
 }
 
 ExitCode measureAndShow(const TrustOptions& options) {
-  const TrustPlan plan = planTrust(options.common.scene, options.common.overrides);
+  const TrustPlan plan = planTrust(
+      [&](const std::vector<std::string>& overrides) {
+        CommonOptions common = options.common;
+        common.overrides = overrides;
+        return common.readScene();
+      },
+      options.common.overrides);
   options.picture.renderer();                                // a wrong word is told before the runs
   parseFrameRange(options.frames, plan.scene.frameCount());  // and so is a wrong range
   if (options.video) requireFfmpeg("--video");

@@ -1,13 +1,19 @@
 // Cells are drawn in parallel; pages are put together on the calling thread.
 #include "app/figure/figure_draw.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
 
+#include "app/base/build_info.h"
 #include "app/base/interrupt.h"
 #include "app/base/output_file.h"
+#include "app/base/shell.h"
 #include "app/figure/vector_page.h"
 #include "app/run/frame_folder.h"
 #include "app/run/pipeline.h"
+#include "app/run/run_record.h"
 #include "app/run/whole_frames.h"
 #include "render/film.h"
 #include "render/page.h"
@@ -57,6 +63,24 @@ bool drawTiles(const FigurePlan& plan, const FigureShots& shots, const FigureDra
 
 // A sheet's own width is meant for 2050 pixels over the 174 mm of a page's two columns.
 double widthInPrint(const scenes::FigureSheet& sheet) { return sheet.width * 174.0 / 2050; }
+
+// How it is made again: of a sheet that is shipped by its name, of another by its file.
+render::PngNotes notesOf(const FigurePlan& plan, const FigureDrawing& drawing) {
+  const scenes::FigureSheet& sheet = plan.sheet;
+  const std::vector<std::string> shipped = scenes::figureSheets();
+  const bool isShipped = std::find(shipped.begin(), shipped.end(), sheet.path) != shipped.end();
+  const std::string source =
+      isShipped ? sheet.name : std::filesystem::path(sheet.path).filename().string();
+  render::PngNotes notes;
+  notes.texts = {
+      {"Title", sheet.title},
+      {"Software", "dbd " + version()},
+      {"Figure", source + " " + hashText(sheet.text)},
+      {"Command", fmt::format("dbd figures {} --width {} --quality {}", shellQuoted(source),
+                              plan.page.width, qualityName(drawing.quality))}};
+  notes.printedWidth = widthInPrint(sheet) / 1000;
+  return notes;
+}
 
 void addStamp(const std::string& words, const scenes::FigureLayout& layout, const Rectangle& cell,
               render::Page& page) {
@@ -159,7 +183,7 @@ bool drawFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDr
   if (!drawTiles(plan, shots, drawing, images)) return false;
   render::PagePrinter printer;
   const render::Page page = composeFigure(plan, shots, std::move(images));
-  render::writePng(printer.print(page), file);
+  render::writePng(printer.print(page), file, notesOf(plan, drawing));
   for (const std::string& format : drawing.formats) {
     const std::filesystem::path other = std::filesystem::path(file).replace_extension(format);
     writeFile(other, vectorPage(page, printer.inkOf(page), widthInPrint(plan.sheet), format));

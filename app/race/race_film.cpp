@@ -1,12 +1,16 @@
 // Draws a race: panels in parallel, frames put together in order on the calling thread.
 #include "app/race/race_film.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "app/base/interrupt.h"
 #include "app/commands/exit_code.h"
 #include "app/run/frame_folder.h"
 #include "app/run/pipeline.h"
+#include "app/run/provenance.h"
 #include "app/run/whole_frames.h"
 #include "render/film.h"
 #include "render/png.h"
@@ -67,6 +71,16 @@ void dropWhatIsOutOfSight(render::Picture& picture) {
   });
 }
 
+// How long it is stands in the overrides of its scene.
+std::string commandOf(const Race& race, const RaceDrawing& drawing, const RaceLayout& layout,
+                      const RunRecord& record) {
+  std::vector<std::string> engines;
+  for (const RaceTrack& track : race.tracks) engines.push_back(track.entry.engine);
+  return fmt::format("{} --engines {} --size {}x{} --quality {}", commandOf("race", record),
+                     fmt::join(engines, ","), layout.width, layout.height,
+                     qualityName(drawing.quality));
+}
+
 bool drawFrames(const Race& race, const RaceLimits& limits, const RaceDrawing& drawing,
                 const RaceLayout& layout, const FrameFolder& folder) {
   scenes::ViewOptions options;
@@ -80,6 +94,8 @@ bool drawFrames(const Race& race, const RaceLimits& limits, const RaceDrawing& d
   std::vector<bool> isDrawn;
   for (const RaceTrack& track : race.tracks) isDrawn.push_back(track.ran());
   WholeFrames pages(std::move(isDrawn));
+  const RunRecord record = makeRecord(race.scene);
+  const std::string command = commandOf(race, drawing, layout, record);
   render::PagePrinter printer;
   int printed = 0;
   const auto print = [&] {
@@ -87,7 +103,8 @@ bool drawFrames(const Race& race, const RaceLimits& limits, const RaceDrawing& d
       auto images = pages.next();
       if (!images) return;
       const render::Page page = racePage(race, limits, layout, printed, std::move(*images));
-      render::writePng(printer.print(page), folder.file(printed));
+      render::writePng(printer.print(page), folder.file(printed),
+                       notesOf(record, printed, command));
       progress.advance();
     }
   };

@@ -22,12 +22,17 @@ std::string sceneAndHash(const RunRecord& record) {
 
 }  // namespace
 
-std::string commandOf(const RunRecord& record, const std::string& frames) {
-  const Json& picture = record.picture;
-  std::string line = "dbd render " + shellQuoted(record.scene.value("source", std::string()));
+std::string commandOf(const std::string& word, const RunRecord& record) {
+  std::string line = "dbd " + word + " " + shellQuoted(record.scene.value("source", std::string()));
   for (const Json& setting : record.scene.value("overrides", Json::array())) {
     line += " --set " + shellQuoted(setting.get<std::string>());
   }
+  return line;
+}
+
+std::string commandOf(const RunRecord& record, const std::string& frames) {
+  const Json& picture = record.picture;
+  std::string line = commandOf("render", record);
   line += fmt::format(" --quality {} --size {}x{}", picture.value("quality", std::string()),
                       picture.value("width", 0), picture.value("height", 0));
   const auto overlays = picture.value("asked_overlays", std::vector<std::string>());
@@ -44,6 +49,10 @@ std::string commandOf(const RunRecord& record, const std::string& frames) {
 }
 
 render::PngNotes notesOf(const RunRecord& record, int frame) {
+  return notesOf(record, frame, commandOf(record, fmt::format("{}", frame)));
+}
+
+render::PngNotes notesOf(const RunRecord& record, int frame, const std::string& command) {
   const int fps = std::max(1, record.settings.value("fps", 1));
   render::PngNotes notes;
   notes.texts = {{"Title", record.scene.value("title", std::string())},
@@ -51,7 +60,7 @@ render::PngNotes notesOf(const RunRecord& record, int frame) {
                  {"Scene", sceneAndHash(record)},
                  {"Frame", fmt::format("{}", frame)},
                  {"Time", fmt::format("{:.6g} s", static_cast<double>(frame) / fps)},
-                 {"Command", commandOf(record, fmt::format("{}", frame))}};
+                 {"Command", command}};
   notes.printedWidth = record.picture.value("print_width", 0.0) / 100;
   return notes;
 }

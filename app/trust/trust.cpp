@@ -63,14 +63,14 @@ double Trust::until() const {
   return isWhole() ? differences.back().time : differences[std::max(0, beyond - 1)].time;
 }
 
-TrustPlan planTrust(const std::string& scene, std::vector<std::string> overrides) {
+TrustPlan planTrust(const SceneReader& read, std::vector<std::string> overrides) {
   TrustPlan plan;
-  plan.scene = scenes::readScene(scene, overrides);
+  plan.scene = read(overrides);
   plan.chosen = !plan.scene.settings.accuracy.has_value();
   plan.accuracy = plan.scene.settings.accuracy.value_or(kChosenAccuracy);
   if (plan.chosen) {
     overrides.push_back(fmt::format("simulation.accuracy={:g}", plan.accuracy));
-    plan.scene = scenes::readScene(scene, overrides);
+    plan.scene = read(overrides);
   }
   if (plan.accuracy < kLeastAccuracy) {
     throw scenes::InputError(
@@ -84,7 +84,7 @@ TrustPlan planTrust(const std::string& scene, std::vector<std::string> overrides
     plan.every = static_cast<int>(kFiner);
     overrides.push_back(fmt::format("simulation.fps={}", plan.every * plan.scene.fps));
   }
-  plan.finer = scenes::readScene(scene, overrides);
+  plan.finer = read(overrides);
   return plan;
 }
 

@@ -8,6 +8,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What is told under a keyword, up to the next chunk's checksum.
+std::string noteOf(const std::string& png, const std::string& keyword) {
+  const std::string mark = "tEXt" + keyword + '\0';
+  const std::size_t at = png.find(mark);
+  if (at == std::string::npos || at < 4) return "";
+  std::size_t length = 0;
+  for (std::size_t k = at - 4; k < at; ++k) {
+    length = 256 * length + static_cast<unsigned char>(png[k]);
+  }
+  return png.substr(at + mark.size(), length - keyword.size() - 1);
+}
+
 class Provenance : public Program {
  protected:
   static constexpr const char* kDraw =
@@ -44,6 +56,34 @@ TEST_F(Provenance, ARecordMakesTheSameFramesAgainWithoutTheScene) {
   const auto record = nlohmann::json::parse(readBytes(folder / "b" / "run.json"));
   EXPECT_EQ(record.at("settings").at("method"), "small_steps");
   EXPECT_EQ(record.at("frames"), "0:9:4");
+}
+
+// The scene's file may say something else by now, or be gone.
+TEST_F(Provenance, TheTrustOfARecordIsThatOfItsText) {
+  const std::string small = " --quiet --quality draft --size 96x64 --frames 0 --set duration=0.1 ";
+  ASSERT_EQ(run("render drop.toml --trust -o a" + small).code, 0);
+  fs::remove(folder / "drop.toml");
+  const Outcome again = run("render a/run.json --trust -o b" + small);
+  ASSERT_EQ(again.code, 0) << again.errors;
+  EXPECT_EQ(readBytes(folder / "a" / "difference.csv"), readBytes(folder / "b" / "difference.csv"));
+  EXPECT_EQ(run("trust a/run.json --quiet --no-film -o c").code, 0);
+}
+
+TEST_F(Provenance, AFigureTellsItsCommandAndThatDrawsIt) {
+  writeText(folder / "fall.toml", R"(title = "A fall"
+claim = "Things fall."
+[[panel]]
+name = "fall"
+scene = "./drop.toml"
+frames = [0, 10]
+)");
+  ASSERT_EQ(run("figures fall.toml --quality draft --width 320 --quiet -o a").code, 0);
+  const std::string figure = readBytes(folder / "a" / "fall.png");
+  const std::string command = noteOf(figure, "Command");
+  EXPECT_EQ(command, "dbd figures fall.toml --width 320 --quality draft");
+  EXPECT_NE(figure.find("pHYs"), std::string::npos);
+  ASSERT_EQ(run(command.substr(4) + " --quiet -o b").code, 0);
+  EXPECT_EQ(readBytes(folder / "b" / "fall.png"), figure);
 }
 
 TEST_F(Provenance, ARecordOfASimulationIsASceneToo) {
