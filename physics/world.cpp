@@ -7,6 +7,7 @@
 #include "physics/effects/local_substeps.h"
 #include "physics/effects/skip_inactive.h"
 #include "physics/effects/sleep.h"
+#include "physics/model/factors.h"
 #include "physics/stepping/not_finite.h"
 #include "physics/stepping/substep.h"
 #include "physics/world/impl.h"
@@ -26,6 +27,7 @@ void begin(WorldState& w, StepReport& report) {
   profileScope("arm");
   drive(w.arms, w.bodies, w.settings.dt, w.settings.accuracy);  // (149)-(154)
   profileScope("");
+  takeFactors(w.kinds, w.bodies, w.time(), w.time() + w.settings.dt);
   keepStart(w);
 }
 

@@ -30,9 +30,21 @@ struct Parts {
   std::optional<physics::ConeLimit> cone;
 };
 
+bool followsTable(const physics::ConstraintItem& constraint) {
+  return std::visit(
+      [](const auto& item) {
+        if constexpr (requires { item.factor; }) return item.factor.table != nullptr;
+        return false;
+      },
+      constraint.item);
+}
+
 class Reader {
  public:
   void take(const physics::ConstraintItem& item, Blueprint& plan) {
+    if (plan.refusal.empty() && followsTable(item)) {
+      plan.refusal = std::string("other engines have no table over time for a ") + item.kind;
+    }
     if (plan.forces.take(item)) return;
     const std::string refusal = std::visit([&](const auto& c) { return add(c, plan); }, item.item);
     if (plan.refusal.empty() && !refusal.empty()) plan.refusal = refusal + item.kind;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "physics/model/factors.h"
+
 namespace physics {
 namespace {
 
@@ -17,10 +19,13 @@ constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one
 Extrapolation::Extrapolation(SymmetricStep step) : step_(std::move(step)) {}
 
 // The next T_j1.
-bool Extrapolation::run(int n, double whole, const Surroundings& world, const TrialPoses& trial) {
+bool Extrapolation::run(int n, double from, double whole, const Surroundings& world,
+                        const TrialPoses& trial) {
+  const double h = whole / n;
   step_.restart();
   for (int k = 0; k < n; ++k) {
-    if (!step_.step(whole / n, tolerance_, world, trial)) return false;
+    takeFactors(world.kinds, world.bodies, from + k * h, from + (k + 1) * h);
+    if (!step_.step(h, tolerance_, world, trial)) return false;
   }
   row_ = step_.state();
   step_.takeMomenta(row_);
@@ -41,13 +46,16 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
   step_.set(state_, world, trial);
   stepsOfRow_ = step_.dampsWithin(time, world, trial) ? 2 : 1;
   for (double left = time; left > 0;) {
-    const double whole = choice_.next(left, time);
+    const double from = world.time + (time - left), least = kLeastPart * time;
+    const double wanted = choice_.next(left, time);
     const int columns = choice_.columns();
-    if (whole < kLeastPart * time) return choice_.forget(), false;
+    if (wanted < least) return choice_.forget(), false;
+    // A step ends where a table has a point: no order counts across one.
+    const double whole = nextPart(world.kinds, from, wanted, least);
     tolerance_ = step_.size() * std::max(kFinest, kClosed * allowed / (columns * columns));
     double error = std::numeric_limits<double>::infinity(), coarser = error;  // and of one less
     tableau_.clear(step_.bodies().size());
-    for (int j = 1; j <= columns && run(stepsOfRow_ * j, whole, world, trial); ++j) {
+    for (int j = 1; j <= columns && run(stepsOfRow_ * j, from, whole, world, trial); ++j) {
       coarser = error;
       if (j > 1) error = tableau_.difference(step_.size(), whole, step_.levers());
     }
@@ -76,10 +84,11 @@ bool Extrapolation::advanceBy(IslandState& state, double time, int columns, int 
   state_ = state;
   step_.set(state_, world, trial);
   tolerance_ = kFinest * step_.size();
+  const double h = time / steps;
   for (int s = 0; s < steps; ++s) {
     tableau_.clear(step_.bodies().size());
     for (int j = 1; j <= columns; ++j) {
-      if (!run(j, time / steps, world, trial)) return false;
+      if (!run(j, world.time + s * h, h, world, trial)) return false;
     }
     takeBest();
     step_.project(state_, tolerance_, world, trial);

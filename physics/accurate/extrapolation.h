@@ -28,7 +28,7 @@ class Extrapolation {
   void archive(Archive& a) { a(step_, choice_); }
 
  private:
-  bool run(int n, double whole, const Surroundings& world, const TrialPoses& trial);
+  bool run(int n, double from, double whole, const Surroundings& world, const TrialPoses& trial);
   void takeBest();
 
   SymmetricStep step_;

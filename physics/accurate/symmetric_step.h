@@ -28,10 +28,11 @@ struct TrialPoses {
 
 // What the world does to bodies, by BodyId.
 struct Surroundings {
-  const Kinds& kinds;
+  Kinds& kinds;  // what follows a table over time is set to each step's mean
   const Bodies& bodies;
   std::span<const Load> loads;
   Vec3 gravity = Vec3::Zero();
+  double time = 0;  // s, where a motion starts
 };
 
 template <class Row>

@@ -117,7 +117,8 @@ struct Set {
     bool damps = false;  // the regularisation is in mu alone
   };
   std::vector<C> items;
-  std::vector<int> active;  // items that are solved: all, but for those of bodies that sleep
+  std::vector<int> active;    // items that are solved: all, but for those of bodies that sleep
+  std::vector<int> overTime;  // items that follow a table
   std::vector<Multipliers<C>> lambda;
   std::vector<Multipliers<C>> kept;  // of the start of a step that may be made anew
   std::vector<Tuned> tuned;

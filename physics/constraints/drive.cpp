@@ -5,8 +5,14 @@
 
 namespace physics {
 
+Quat Drive::aim() const {
+  if (!factor.table) return target;
+  const Vec3 turn = logarithm((target * start.conjugate()).normalized());
+  return (exponential(factor.now * turn) * start).normalized();
+}
+
 Vec3 Drive::error(std::span<const Pose> pose) const {
-  return logarithm(pose[bodies[1]].q * target.conjugate() * pose[bodies[0]].q.conjugate());
+  return logarithm(pose[bodies[1]].q * aim().conjugate() * pose[bodies[0]].q.conjugate());
 }
 
 void Drive::evaluate(const Configuration& x, Push<kBodies, kRows>& push) const {

@@ -7,6 +7,7 @@
 
 #include "physics/base/fields.h"
 #include "physics/constraints/constraint.h"
+#include "physics/constraints/over_time.h"
 
 namespace physics {
 
@@ -18,6 +19,7 @@ struct DriveDef {
   double stiffness = 20;  // k [N m/rad]
   double damping = 0.2;   // nu [N m s]
   double maxTorque = std::numeric_limits<double>::infinity();  // tau_max [N m]
+  std::optional<OverTime> overTime{};  // of the turn from the start to the target
   Tuning tuning;
   template <class V, class D>
   static void fields(V& v, D& d) {
@@ -26,6 +28,7 @@ struct DriveDef {
     v(Field{"stiffness", Unit::kNewtonMetrePerRadian, true, 0}, d.stiffness);
     v(Field{"damping", Unit::kNewtonMetreSecond, false, 0}, d.damping);
     v(Field{"max_torque", Unit::kNewtonMetre, false, 0}, d.maxTorque);
+    v(Field{"over_time"}, d.overTime);
     Tuning::fields(v, d.tuning);
   }
 };
@@ -37,7 +40,10 @@ struct Drive {
   std::array<BodyId, 2> bodies{};
   Quat target = Quat::Identity();
   double stiffness = 20, damping = 0.2, maxTorque = std::numeric_limits<double>::infinity();
+  Factor factor{};
+  Quat start = Quat::Identity();  // where a factor of 0 aims at
 
+  Quat aim() const;
   Vec3 error(std::span<const Pose> pose) const;  // dtheta, world frame [rad]
   void evaluate(const Configuration& x, Push<kBodies, kRows>& push) const;
   double energy(std::span<const Pose> pose) const;  // J, as if without a torque limit

@@ -5,6 +5,7 @@
 
 #include "physics/base/fields.h"
 #include "physics/constraints/constraint.h"
+#include "physics/constraints/over_time.h"
 
 namespace physics {
 
@@ -14,6 +15,7 @@ struct MotorDef {
   Vec3 axis = Vec3::UnitX();  // world direction at the start, fixed in bodies[0]
   double speed = 1;           // rad/s
   double maxTorque = std::numeric_limits<double>::infinity();  // N m
+  std::optional<OverTime> overTime{};                          // of the speed
   Tuning tuning;
   template <class V, class D>
   static void fields(V& v, D& d) {
@@ -21,6 +23,7 @@ struct MotorDef {
     v(Field{"axis", Unit::kDirection, true}, d.axis);
     v(Field{"speed", Unit::kRadianPerSecond, true}, d.speed);
     v(Field{"max_torque", Unit::kNewtonMetre, false, 0}, d.maxTorque);
+    v(Field{"over_time"}, d.overTime);
     Tuning::fields(v, d.tuning);
   }
 };
@@ -39,6 +42,7 @@ struct Motor {
   std::array<BodyId, 2> bodies{};
   Vec3 axisI = Vec3::UnitX();  // body frame of i
   double speed = 1, maxTorque = std::numeric_limits<double>::infinity();
+  Factor factor{};
 
   void evaluate(const Configuration& x, Row<kBodies, kRows>& row) const;
 };

@@ -5,6 +5,7 @@
 
 #include "physics/base/fields.h"
 #include "physics/constraints/constraint.h"
+#include "physics/constraints/over_time.h"
 
 namespace physics {
 
@@ -14,6 +15,7 @@ struct MotorTorqueDef {
   Vec3 axis = Vec3::UnitX();                                   // world direction at the start
   double stallTorque = 1;                                      // tau_s [N m], either sign
   double freeSpeed = std::numeric_limits<double>::infinity();  // omega_f [rad/s]
+  std::optional<OverTime> overTime{};                          // of the stall torque
   Tuning tuning;
   template <class V, class D>
   static void fields(V& v, D& d) {
@@ -21,6 +23,7 @@ struct MotorTorqueDef {
     v(Field{"axis", Unit::kDirection, true}, d.axis);
     v(Field{"stall_torque", Unit::kNewtonMetre, true}, d.stallTorque);
     v(Field{"free_speed", Unit::kRadianPerSecond, false, 1e-9}, d.freeSpeed);
+    v(Field{"over_time"}, d.overTime);
     Tuning::fields(v, d.tuning);
   }
 };
@@ -32,6 +35,7 @@ struct MotorTorque {
   std::array<BodyId, 2> bodies{};
   Vec3 axisI = Vec3::UnitX();  // body frame of i
   double stallTorque = 1, freeSpeed = std::numeric_limits<double>::infinity();
+  Factor factor{};
 
   void evaluate(const Configuration& x, Push<kBodies, kRows>& push) const;
 };

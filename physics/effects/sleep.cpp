@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "physics/model/factors.h"
 #include "physics/model/islands.h"
 #include "physics/motion/second_order.h"
 #include "physics/rivals/rival.h"
@@ -28,6 +29,10 @@ bool countStill(WorldState& w, int enough) {
     still = isSlow(w.bodies, i, w.settings.sleep->speed) ? std::min(still + 1, enough) : 0;
     any = any || still == enough;
   }
+  forEachOverTime(w.kinds, [&](const auto& item) {
+    if (!std::isfinite(nextPoint(*item.factor.table, w.time()))) return;
+    for (const BodyId i : item.bodies) w.sleep.still[i] = 0;
+  });
   for (const DrivenArm& arm : w.arms) {  // it may be told to move at any time
     for (const BodyId i : arm.bodies) w.sleep.still[i] = 0;
   }

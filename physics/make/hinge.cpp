@@ -34,6 +34,7 @@ void add(World& world, const HingeDef& def) {
     motor.axis = def.axis;
     motor.speed = def.motor->speed;
     motor.maxTorque = def.motor->maxTorque;
+    motor.overTime = def.motor->overTime;
     motor.tuning = def.tuning;
     world.add(motor);
   }

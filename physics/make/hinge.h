@@ -9,10 +9,12 @@ namespace physics {
 struct HingeMotor {
   double speed = 1;                                            // rad/s
   double maxTorque = std::numeric_limits<double>::infinity();  // N m
+  std::optional<OverTime> overTime{};                          // of the speed
   template <class V, class D>
   static void fields(V& v, D& d) {
     v(Field{"speed", Unit::kRadianPerSecond, true}, d.speed);
     v(Field{"max_torque", Unit::kNewtonMetre, false, 0}, d.maxTorque);
+    v(Field{"over_time"}, d.overTime);
   }
 };
 

@@ -43,6 +43,9 @@ struct Model {
   bool touches = false;          // something can
 
   double substepLength() const { return settings.dt / substeps; }
+  double time() const {
+    return static_cast<double>(stepCount) * settings.dt;
+  }  // of the step's start
 
   // Before contacts are first looked for, when it is known which points a soft surface touches for.
   void takeShapes();

@@ -7,8 +7,8 @@
 namespace physics {
 namespace {
 
-Surroundings surroundingsOf(const Model& w) {
-  return {w.kinds, w.bodies, w.loads, w.settings.gravity.value_or(Vec3::Zero())};
+Surroundings surroundingsOf(Model& w, double time) {
+  return {w.kinds, w.bodies, w.loads, w.settings.gravity.value_or(Vec3::Zero()), time};
 }
 
 }  // namespace
@@ -22,8 +22,7 @@ void add(const AccuracyReport& of, AccuracyReport& to) {
 }
 
 // `rows`: what joins and pushes, by first body of its island.
-void SmallSteps::Impl::learnAccurate(const Model& w,
-                                     const std::vector<std::vector<JointRef>>& rows) {
+void SmallSteps::Impl::learnAccurate(Model& w, const std::vector<std::vector<JointRef>>& rows) {
   accurate.clear();
   accurateOf.assign(w.bodies.pose.size(), -1);
   if (!w.settings.accuracy) return;
@@ -31,7 +30,7 @@ void SmallSteps::Impl::learnAccurate(const Model& w,
   for (BodyId i = 0; i < w.bodies.size(); ++i) {
     if (w.bodies.motion[i] == Motion::kDynamic) members[w.joined[i]].push_back(i);
   }
-  const Surroundings world = surroundingsOf(w);
+  const Surroundings world = surroundingsOf(w, w.time());
   for (BodyId root = 0; root < w.bodies.size(); ++root) {
     const auto& bodies = members[root];
     if (bodies.empty() || !SymmetricStep::takes(rows[root], world)) continue;
@@ -50,11 +49,10 @@ void SmallSteps::Impl::learnAccurate(const Model& w,
   trialNow = trialStart = trialEnd = w.bodies.pose;
 }
 
-// Constant forces are loads of the step: they join nothing, and the lanes of contacts are free of
-// joints.
+// They join nothing, and the lanes of contacts are free of joints.
 void SmallSteps::Impl::takeForces(Model& w) {
-  if (!w.settings.accuracy) return;
   for (const ConstantForce& push : std::get<Kind<ForceDef, ConstantForce>>(w.kinds).set.items) {
+    if (!isLoad(w, push)) continue;
     w.loads[push.bodies[0]].force += push.force;
     w.loaded.push_back(push.bodies[0]);
   }
@@ -71,7 +69,7 @@ bool SmallSteps::Impl::advanceAccurately(Model& w, BodyId root, double dt, Accur
     island.state.velocity[i] = b.velocity[bodies[i]];
   }
   AccuracyReport of;
-  if (!island.motion.advance(island.state, dt, *w.settings.accuracy, surroundingsOf(w),
+  if (!island.motion.advance(island.state, dt, *w.settings.accuracy, surroundingsOf(w, now),
                              {trialNow, trialStart, trialEnd}, of)) {
     return false;
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/model/factors.h"
 #include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps_impl.h"
 
@@ -177,6 +178,7 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
   StepChoice& choice = choices[batch.bodies.front()];
   AccuracyReport told;
   int flights = 0;
+  const double from = now;
   bool hits = false;  // an impact comes next: by itself, and what flies on then flies exactly
   begin(w, batch, dt);
   for (double left = dt; left > 0;) {
@@ -187,7 +189,9 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
       continue;
     }
     const double next = hits ? 0 : choice.next(left, dt);
-    const double whole = std::min(std::max(next, kLeastPart * dt), left);
+    const double wanted = std::min(std::max(next, kLeastPart * dt), left);
+    now = from + (dt - left);
+    const double whole = nextPart(w.kinds, now, wanted, kLeastPart * dt);
     const int most = std::max(choice.columns(), static_cast<int>(std::ceil(count * whole / dt)));
     keepStart(w, batch);
     tryOut(w, batch, whole, choice, most, report);

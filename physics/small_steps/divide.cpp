@@ -2,7 +2,6 @@
 // islands with as many substeps.
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "physics/small_steps/small_steps_impl.h"
 
@@ -32,9 +31,8 @@ void SmallSteps::Impl::learn(Model& w) {
   std::vector<BodyId> roots;
   int place = 0;
   forEachKind(w.kinds, [&](const auto& kind) {
-    using Item = typename std::decay_t<decltype(kind)>::Item;
-    const bool isLoad = std::is_same_v<Item, ConstantForce> && w.settings.accuracy;
-    for (std::size_t k = 0; k < kind.set.items.size() && !isLoad; ++k) {
+    for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
+      if (isLoad(w, kind.set.items[k])) continue;
       const BodyId mover = moverOf(kind.set.items[k], w.bodies);
       if (mover == kWorldBody) continue;
       auto& list = rows[joined[mover]];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "physics/model/factors.h"
 #include "physics/model/finite.h"
 #include "physics/small_steps/small_steps_impl.h"
 
@@ -77,10 +78,12 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   change.resize(bodies);
 }
 
-// Substeps of h from where the bodies are. What contacts and joints carried before is as it was.
+// Substeps of h from where the bodies are, and from `now` on. What contacts and joints carried
+// before is as it was.
 void SmallSteps::Impl::run(Model& w, Batch& batch, double h, int count, StepReport& report) {
   batch.joints.take(articulations, batch.articulations);
   for (int i = 0; i < count; ++i) {
+    takeFactors(w.kinds, w.bodies, now + i * h, now + (i + 1) * h);
     predict(w, batch, h, i == 0);
     if (i == 0 && !batch.blocks.empty()) rows(w, batch, h);
     lookAgain(w, batch, h);
@@ -98,10 +101,11 @@ void SmallSteps::Impl::finish(Model& w, Batch& batch, double h) {
   for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
 }
 
-// Those that step now, one of `parts` of a step: islands, and batches, to which others are added
-// while they step.
-void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
+// Those that step now, one of `parts` of a step that begins at `from`: islands, and batches, to
+// which others are added while they step.
+void SmallSteps::Impl::advancePart(Model& w, int parts, double from, StepReport& report) {
   const double dt = w.settings.dt / parts;
+  now = from;
   divide(w);
   advanceAccurately(w, dt, report.accuracy);
   assign(w);
@@ -111,6 +115,7 @@ void SmallSteps::Impl::advancePart(Model& w, int parts, StepReport& report) {
   for (std::size_t k = 0; k < batchCount; ++k) {
     const int count = (batches[k].substeps + parts - 1) / parts;
     const double h = dt / count;
+    now = from;
     report.substeps = std::max(report.substeps, parts * count);
     layOut(w, batches[k]);
     keepStart(w, batches[k]);
@@ -134,7 +139,7 @@ void SmallSteps::Impl::advance(Model& w, StepReport& report) {
   bool some = chooseFast(w);
   for (const bool again : {false, true}) {
     if (!some) break;
-    advancePart(w, 2, report);
+    advancePart(w, 2, w.time(), report);
     if (report.notFinite) return;
     for (const BodyId i : w.bodies.active) halved[i] = halved[i] || steps[i];
     if (again) break;  // these are slow: what was found of them before holds
@@ -143,7 +148,7 @@ void SmallSteps::Impl::advance(Model& w, StepReport& report) {
   }
   for (const int parts : {1, 2}) {
     if (!choose(w, parts)) continue;
-    advancePart(w, parts, report);
+    advancePart(w, parts, w.time() + (1 - 1.0 / parts) * w.settings.dt, report);
     if (report.notFinite) return;
   }
 }

@@ -134,6 +134,13 @@ void emptyLane(ContactBlock& block, int l);
 void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& block, int l);
 Softness softnessOf(const Bodies& b, const KeptContact& c);
 
+// Of an accuracy's step: a force that is constant.
+template <class C>
+bool isLoad(const Model& w, const C& item) {
+  if constexpr (std::is_same_v<C, ConstantForce>) return w.settings.accuracy && !item.factor.table;
+  return false;
+}
+
 // What islands tell together.
 void add(const AccuracyReport& of, AccuracyReport& to);
 
@@ -162,6 +169,7 @@ struct SmallSteps::Impl {
     int places = 0;                                          // bodies that err by too much
     int changes = 0, steps = 0;  // contacts that changed; substeps of the last row
   } trial;
+  double now = 0;                     // s, where what is stepped next starts
   std::vector<LaneStart> swept;       // by slot: after the last sweep
   bool known = false;                 // these are those of the world's constraints
   std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
@@ -195,7 +203,7 @@ struct SmallSteps::Impl {
   std::vector<LaneNumbers> works;                       // scratch, by block
 
   void learn(Model& w);
-  void learnAccurate(const Model& w, const std::vector<std::vector<JointRef>>& rows);
+  void learnAccurate(Model& w, const std::vector<std::vector<JointRef>>& rows);
   static void takeForces(Model& w);
   void advanceAccurately(Model& w, double dt, AccuracyReport& report);
   bool advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report);
@@ -310,7 +318,7 @@ struct SmallSteps::Impl {
   double flyToTouch(Model& w, const Batch& batch, double most);
   void rest(Batch& batch);
   void finish(Model& w, Batch& batch, double h);
-  void advancePart(Model& w, int parts, StepReport& report);
+  void advancePart(Model& w, int parts, double from, StepReport& report);
   void advance(Model& w, StepReport& report);
   void learnLoads(Model& w);
   void tell(const Model& w, int parts) const;

@@ -4,6 +4,7 @@
 #include "physics/base/profile.h"
 #include "physics/effects/choose_scheme.h"
 #include "physics/effects/skip_inactive.h"
+#include "physics/model/factors.h"
 #include "physics/motion/restitution.h"
 #include "physics/motion/second_order.h"
 #include "physics/rivals/rival.h"
@@ -51,8 +52,13 @@ void solveConstraints(WorldState& w, double h, StepReport& report) {
   }
 }
 
+void takeFactors(WorldState& w, int k, double h) {
+  takeFactors(w.kinds, w.bodies, w.time() + k * h, w.time() + (k + 1) * h);
+}
+
 // From X^t, v^t to the displaced poses, by the schemes as they stand.
 void displaceAll(WorldState& w, int k, double h, StepReport& report) {
+  takeFactors(w, k, h);
   profileScope("motion");
   if (isSecondOrder(w.settings)) {
     moveFreelySecondOrder(w.bodies, w.loads, w.settings.gravity, h);
@@ -126,6 +132,7 @@ void countSubstep(const WorldState& w, StepReport& report) {
 
 // A whole substep of a rival, from contacts found as for the other methods.
 void substepOfRival(WorldState& w, int k, double h, StepReport& report) {
+  takeFactors(w, k, h);
   profileScope("motion");
   coast(w, h);
   checkFinite(w, report);

@@ -40,6 +40,9 @@ int append(WorldState& w, const D& def, const C& item) {
     if constexpr (std::is_same_v<typename std::decay_t<decltype(kind)>::Item, C>) {
       kind.set.active.push_back(static_cast<int>(kind.set.items.size()));
       kind.set.items.push_back(item);
+      if constexpr (requires { item.factor; }) {
+        if (item.factor.table) kind.set.overTime.push_back(kind.set.active.back());
+      }
       kind.set.lambda.emplace_back();
       kind.set.tuned.push_back({def.tuning.relaxation.value_or(w.settings.relaxation),
                                 def.tuning.regularisation.value_or(w.settings.regularisation),
@@ -92,6 +95,12 @@ Mat3 frameAbout(const Vec3& n) {
 
 void checkForce(std::initializer_list<double> parameters, const char* expectation) {
   for (const double p : parameters) require(p >= 0 && std::isfinite(p), expectation);
+}
+
+Factor factorOf(const std::optional<OverTime>& table) {
+  if (!table) return {};
+  check(*table);
+  return {std::make_shared<OverTime>(*table), valueAt(*table, 0)};
 }
 
 double startDistance(const WorldState& w, const std::array<BodyId, 2>& bodies,
@@ -223,7 +232,7 @@ int World::add(const PointGravityDef& def) {
 int World::add(const ForceDef& def) {
   checkBodies(*impl_, def);
   require(finite(def.force), "a force must be finite");
-  return append(*impl_, def, ConstantForce{def.bodies, def.force});
+  return append(*impl_, def, ConstantForce{def.bodies, def.force, factorOf(def.overTime)});
 }
 
 int World::add(const DragDef& def) {
@@ -274,8 +283,12 @@ int World::add(const DriveDef& def) {
   require(def.stiffness >= 0 && def.damping >= 0 && def.maxTorque >= 0,
           "a drive's stiffness, damping and torque must not be negative");
   if (def.target) checkOrientation(*def.target);
-  const Quat target = def.target.value_or(relativeOrientation(*impl_, def.bodies)).normalized();
-  return append(*impl_, def, Drive{def.bodies, target, def.stiffness, def.damping, def.maxTorque});
+  require(def.target || !def.overTime, "a drive over time needs a target");
+  const Quat start = relativeOrientation(*impl_, def.bodies);
+  const Quat target = def.target.value_or(start).normalized();
+  return append(*impl_, def,
+                Drive{def.bodies, target, def.stiffness, def.damping, def.maxTorque,
+                      factorOf(def.overTime), start});
 }
 
 int World::add(const MotorDef& def) {
@@ -283,7 +296,8 @@ int World::add(const MotorDef& def) {
   require(std::isfinite(def.speed) && def.maxTorque >= 0,
           "a motor's speed must be finite and its torque not negative");
   const Vec3 n = impl_->bodies.pose[def.bodies[0]].q.conjugate() * direction(def.axis);
-  return append(*impl_, def, Motor{def.bodies, n, def.speed, def.maxTorque});
+  return append(*impl_, def,
+                Motor{def.bodies, n, def.speed, def.maxTorque, factorOf(def.overTime)});
 }
 
 int World::add(const MotorTorqueDef& def) {
@@ -291,7 +305,8 @@ int World::add(const MotorTorqueDef& def) {
   require(std::isfinite(def.stallTorque) && def.freeSpeed > 0,
           "a motor's torque must be finite and its free speed positive");
   const Vec3 n = impl_->bodies.pose[def.bodies[0]].q.conjugate() * direction(def.axis);
-  return append(*impl_, def, MotorTorque{def.bodies, n, def.stallTorque, def.freeSpeed});
+  return append(*impl_, def,
+                MotorTorque{def.bodies, n, def.stallTorque, def.freeSpeed, factorOf(def.overTime)});
 }
 
 }  // namespace physics

@@ -22,7 +22,10 @@ std::string sharedName(const std::string& table) {
     if (table.find(parent) == std::string::npos) continue;
     return fmt::format("shape{}", table.substr(table.rfind('.')));
   }
-  return table.ends_with(".friction") ? "friction" : table;
+  for (const char* word : {"friction", "over_time"}) {
+    if (table.ends_with(std::string(".") + word)) return word;
+  }
+  return table;
 }
 
 }  // namespace

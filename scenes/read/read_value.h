@@ -9,6 +9,7 @@
 
 #include "physics/base/fields.h"
 #include "physics/bodies/body.h"
+#include "physics/constraints/over_time.h"
 #include "physics/make/tet_mesh.h"
 #include "scenes/read/value.h"
 
@@ -62,6 +63,7 @@ void readValue(const Value& value, const Spot& spot, std::array<physics::Vec3, 2
 void readValue(const Value& value, const Spot& spot, physics::Friction& out);
 void readValue(const Value& value, const Spot& spot, physics::Shape& out);
 void readValue(const Value& value, const Spot& spot, physics::TetMesh& out);
+void readValue(const Value& value, const Spot& spot, physics::OverTime& out);
 
 // The index of the word in `choices`.
 int readChoice(const Value& value, const Spot& spot, std::span<const char* const> choices);

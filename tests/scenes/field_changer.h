@@ -1,6 +1,7 @@
 // Definitions that differ from their defaults in every member.
 #pragma once
 
+#include "physics/constraints/over_time.h"
 #include "physics/make/soft.h"
 #include "physics/make/tet_mesh.h"
 
@@ -42,6 +43,9 @@ struct FieldChanger {
     member = physics::Quat(0.6, 0, 0.8, 0);
   }
   void change(const physics::Field& f, physics::Vec2& member) { member = {next(f), next(f)}; }
+  void change(const physics::Field& f, physics::OverTime& member) {
+    member = {{{next(f), next(f)}, {100, next(f)}}, true};
+  }
   void change(const physics::Field&, std::array<physics::BodyId, 2>& member) { member = {1, 2}; }
   void change(const physics::Field&, std::array<int, 1>& member) { member = {2}; }
   void change(const physics::Field&, physics::BodyRef& member) { member.id = 2; }

@@ -40,6 +40,11 @@ inline std::string textOf(const std::array<int, 3>& n) {
 inline std::string textOf(const std::array<double, 2>& p) {
   return fmt::format("[{:.12g}, {:.12g}]", p[0], p[1]);
 }
+inline std::string textOf(const physics::OverTime& table) {
+  std::string points;
+  for (const auto& point : table.points) points += (points.empty() ? "" : ", ") + textOf(point);
+  return fmt::format("{{ points = [{}], repeat = {} }}", points, table.repeat);
+}
 inline std::string textOf(const std::array<physics::Vec3, 2>& p) {
   return fmt::format("[{}, {}]", textOf(p[0]), textOf(p[1]));
 }
