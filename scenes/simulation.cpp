@@ -24,25 +24,47 @@ struct Between {
 };
 
 template <class Key>
-Between<Key> between(const std::vector<Key>& keys, double time) {
+Between<Key> between(const std::vector<Key>& keys, double time, bool isSmooth = true) {
   const auto after =
       std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return key.time > time; });
   const auto& b = after == keys.end() ? keys.back() : *after;
   const auto& a = after == keys.begin() ? b : *(after - 1);
-  return {a, b, b.time > a.time ? smooth((time - a.time) / (b.time - a.time)) : 1};
+  const double part = b.time > a.time ? (time - a.time) / (b.time - a.time) : 1;
+  return {a, b, isSmooth ? smooth(part) : part};
+}
+
+physics::Quat between(const physics::Quat& a, const physics::Quat& b, double part) {
+  return physics::exponential(part * physics::logarithm((b * a.conjugate()).normalized())) * a;
+}
+
+// The velocity that takes a bone in a step to where it should be. What repeats goes on from where
+// it has come to, on the level.
+void lead(const PoseScript& script, const Between<PoseScript::Key>& keys, double repeats,
+          physics::World& world) {
+  const auto& [a, b, part] = keys;
+  physics::Vec3 way = script.keys.back().root.x - script.keys.front().root.x;
+  way.y() = 0;
+  const physics::Vec3 x = a.root.x + part * (b.root.x - a.root.x) + repeats * way;
+  const physics::Quat q = between(a.root.q, b.root.q, part) * script.start.q;
+  const physics::Pose& now = world.bodies().pose[script.root];
+  const double dt = world.settings().dt;
+  world.setVelocity(script.root, {(script.start.x + x - now.x) / dt,
+                                  physics::logarithm((q * now.q.conjugate()).normalized()) / dt});
 }
 
 void follow(const PoseScript& script, double time, physics::World& world) {
+  double repeats = 0;
   if (script.repeat) {
     const double first = script.keys.front().time, period = script.keys.back().time - first;
-    time -= period * std::max(0.0, std::floor((time - first) / period));
+    repeats = std::max(0.0, std::floor((time - first) / period));
+    time -= period * repeats;
   }
-  const auto [a, b, part] = between(script.keys, time);
+  const auto keys = between(script.keys, time, !script.isCaptured);
   for (size_t i = 0; i < script.drives.size(); ++i) {
-    const physics::Quat &from = a.targets[i], &to = b.targets[i];
-    const physics::Vec3 turn = physics::logarithm((to * from.conjugate()).normalized());
-    world.setDriveTarget(script.drives[i], physics::exponential(part * turn) * from);
+    world.setDriveTarget(script.drives[i],
+                         between(keys.a.targets[i], keys.b.targets[i], keys.part));
   }
+  if (script.root >= 0) lead(script, keys, repeats, world);
 }
 
 void follow(const ArmScript& script, double time, physics::World& world) {

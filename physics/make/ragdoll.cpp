@@ -41,6 +41,8 @@ void addBones(Figure& figure, const std::vector<Pose>& poses, const Vec3& pivot)
     const auto& fixed = figure.def.fixed;
     if (std::find(fixed.begin(), fixed.end(), bone.name) != fixed.end()) {
       body.motion = Motion::kStatic;
+    } else if (i == 0 && figure.def.leads) {
+      body.motion = Motion::kKinematic;
     } else {
       const Velocity& whole = figure.def.velocity;
       body.velocity = {whole.v + whole.w.cross(poses[i].x - pivot), whole.w};

@@ -57,6 +57,7 @@ struct RagdollDef {
   std::optional<Friction> friction;
   std::optional<double> restitution;
   std::vector<std::string> fixed;  // bones that stay where they are
+  bool leads = false;              // the first bone goes by its velocity, whatever pulls at it
   Lattice copies;
   unsigned seed = 1;
   template <class V, class D>

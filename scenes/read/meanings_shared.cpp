@@ -42,6 +42,7 @@ constexpr Meaning kShared[] = {
     {"bowl", "[[tables]]", "a ring of fixed sloping walls"},
     {"stairs", "[[tables]]", "fixed steps that go down along x"},
     {"ragdoll", "[[tables]]", "skeletons in a pose, limp or driven"},
+    {"bvh", "[[tables]]", "a skeleton whose drive follows a motion capture file"},
     {"soft_body", "[[tables]]", "tetrahedra of points that keep their volume"},
     {"cloth", "[[tables]]", "a sheet of points"},
     {"rope", "[[tables]]", "a row of points"},

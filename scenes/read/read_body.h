@@ -10,6 +10,7 @@ class Recipe;
 
 void readBody(TableReader& reader, Recipe& recipe);
 void readRagdoll(TableReader& reader, Recipe& recipe);
+void readBvh(TableReader& reader, Recipe& recipe);
 void readRope(TableReader& reader, Recipe& recipe);
 void readCloth(TableReader& reader, Recipe& recipe);
 void readSoftBody(TableReader& reader, Recipe& recipe);

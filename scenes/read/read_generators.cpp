@@ -66,6 +66,7 @@ constexpr Word kWords[] = {
     word<physics::BowlDef, Pattern::kSingle>(),
     word<physics::StairsDef, Pattern::kSingle>(),
     {"ragdoll", readRagdoll},
+    {"bvh", readBvh},
     {"soft_body", readSoftBody},
     {"cloth", readCloth},
     {"rope", readRope},

@@ -1,36 +1,19 @@
 // [[ragdoll]]: a skeleton in a pose, limp or driven through a sequence of poses.
 #include <fmt/format.h>
 
+#include "scenes/read/ragdoll_words.h"
 #include "scenes/read/read_body.h"
-#include "scenes/read/recipe.h"
-#include "scenes/read/skeleton.h"
 
 namespace scenes {
 namespace {
 
 using physics::Field;
 
-struct RagdollWords {
-  physics::Skeleton skeleton;
-  physics::JointTurns start;
-  PoseScript script;  // without drives; those depend on the copy
-  physics::RagdollDef def;
-};
-
 Value nameValue(const char* name) {
   Value value;
   value.kind = Value::Kind::kString;
   value.text = name;
   return value;
-}
-
-std::vector<physics::Quat> targetsOf(const physics::Skeleton& skeleton,
-                                     const physics::JointTurns& turns) {
-  std::vector<physics::Quat> targets;
-  for (size_t i = 0; i < turns.size(); ++i) {
-    targets.push_back(physics::driveTarget(skeleton, static_cast<int>(i), turns[i]));
-  }
-  return targets;
 }
 
 void readPoses(TableReader& reader, RagdollWords& words) {
@@ -75,21 +58,6 @@ void checkFixed(const TableReader& reader, const RagdollWords& words) {
   }
 }
 
-RagdollWords readWords(TableReader& reader, unsigned seed) {
-  RagdollWords words;
-  words.def.seed = seed;
-  const Value human = nameValue("human"), stand = nameValue("stand");
-  const Value* skeleton = reader.take("skeleton");
-  words.skeleton = readSkeleton(skeleton ? *skeleton : human, reader.spot({"skeleton"}));
-  const Value* pose = reader.take("pose");
-  words.start = readTurns(pose ? *pose : stand, reader.spot({"pose"}), words.skeleton);
-  physics::RagdollDef::fields(reader, words.def);
-  readPoses(reader, words);
-  readRepeat(reader, words.script);
-  checkFixed(reader, words);
-  return words;
-}
-
 void build(Built& built, const RagdollWords& words, const std::string& name,
            const std::optional<render::Color>& color) {
   const auto figures = physics::add(built.world, words.skeleton, words.start, words.def);
@@ -104,18 +72,51 @@ void build(Built& built, const RagdollWords& words, const std::string& name,
     if (words.script.keys.empty()) continue;
     PoseScript script = words.script;
     script.drives = figures[k].drives;
+    if (words.def.leads) {
+      script.root = figures[k].bones[0];
+      script.start = built.world.bodies().pose[script.root];
+    }
     built.scripts.push_back(std::move(script));
   }
 }
 
 }  // namespace
 
-void readRagdoll(TableReader& reader, Recipe& recipe) {
-  const std::string name = readName(reader, physics::RagdollDef::kWord);
-  const auto words = std::make_shared<const RagdollWords>(readWords(reader, recipe.nextSeed()));
+std::vector<physics::Quat> targetsOf(const physics::Skeleton& skeleton,
+                                     const physics::JointTurns& turns) {
+  std::vector<physics::Quat> targets;
+  for (size_t i = 0; i < turns.size(); ++i) {
+    targets.push_back(physics::driveTarget(skeleton, static_cast<int>(i), turns[i]));
+  }
+  return targets;
+}
+
+void readFigure(TableReader& reader, Recipe& recipe, RagdollWords& words) {
+  words.def.seed = recipe.nextSeed();
+  const Value human = nameValue("human");
+  const Value* skeleton = reader.take("skeleton");
+  words.skeleton = readSkeleton(skeleton ? *skeleton : human, reader.spot({"skeleton"}));
+  physics::RagdollDef::fields(reader, words.def);
+  checkFixed(reader, words);
+}
+
+void addFigure(TableReader& reader, Recipe& recipe, RagdollWords words, const std::string& name) {
   std::optional<render::Color> color;
   readColor(reader, color);
-  recipe.add(reader, [=](Built& built) { build(built, *words, name, color); });
+  const auto shared = std::make_shared<const RagdollWords>(std::move(words));
+  recipe.add(reader, [=](Built& built) { build(built, *shared, name, color); });
+}
+
+void readRagdoll(TableReader& reader, Recipe& recipe) {
+  const std::string name = readName(reader, physics::RagdollDef::kWord);
+  RagdollWords words;
+  readFigure(reader, recipe, words);
+  const Value stand = nameValue("stand");
+  const Value* pose = reader.take("pose");
+  words.start = readTurns(pose ? *pose : stand, reader.spot({"pose"}), words.skeleton);
+  readPoses(reader, words);
+  readRepeat(reader, words.script);
+  addFigure(reader, recipe, std::move(words), name);
 }
 
 }  // namespace scenes

@@ -51,10 +51,14 @@ struct PoseScript {
   struct Key {
     double time = 0;                     // s
     std::vector<physics::Quat> targets;  // one per drive
+    physics::Pose root{};  // of the first bone, from where it starts: its place, and its turn
   };
   std::vector<int> drives;
-  std::vector<Key> keys;  // times increase
-  bool repeat = false;    // from the first key again after the last
+  std::vector<Key> keys;      // times increase
+  bool repeat = false;        // from the first key again after the last
+  bool isCaptured = false;    // straight from key to key; else each is come to smoothly
+  physics::BodyId root = -1;  // of a bone that goes where its keys say; -1: none
+  physics::Pose start;        // its own
 };
 
 // The target of an arm over time, or the body that it is.
