@@ -52,7 +52,7 @@ std::optional<physics::Archive> Checkpoint::open() {
   physics::Archive archive(*state);
   std::string text;
   archive(text);
-  const Json was = Json::parse(text, nullptr, false);
+  const Json was = tryParseJson(text);
   if (!recordOf(was).sameStates(recordOf(run_))) refuse(was);
   if (was != run_) return std::nullopt;
   return archive;
@@ -75,7 +75,7 @@ void Checkpoint::write(const Members& members) {
   std::string& bytes = bytes_;
   bytes = kMagic;
   physics::Archive archive(bytes);
-  std::string run = run_.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string run = jsonText(run_);
   archive(run);
   members(archive);
   bytes += hashText(bytes);

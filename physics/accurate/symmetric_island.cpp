@@ -75,6 +75,7 @@ SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const Bod
   present_.rows.resize(rows);
   present_.pulls.resize(rows);
   present_.inverse.resize(size);
+  spins_.resize(size);
   ahead_.resize(rows);
   for (std::size_t i = 0; i < rows; ++i) present_.rows[i].solved = ahead_[i].solved = !isForce_[i];
   for (auto* list : {&error_, &lambda_}) list->assign(rows, Vec3::Zero());

@@ -101,20 +101,33 @@ Vec3 SymmetricStep::pullOn(std::size_t i, const Surroundings& world) const {
   return world.gravity + present_.inverse[i].mass * world.loads[bodies_[i]].force;
 }
 
+// What a step's tries have in common.
+void SymmetricStep::begin(double h, const Surroundings& world) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!turns(i)) continue;
+    Spin& spin = spins_[i];
+    spin.pushed = momentumOf(i) + 0.5 * h * world.loads[bodies_[i]].torque;
+    spin.turned = present_.state.pose[i].q.toRotationMatrix();
+    spin.omega = spin.mean = spin.turned.transpose() * present_.state.velocity[i].w;
+  }
+}
+
 // To the end of the step, by lambda.
 void SymmetricStep::move(double h, const Surroundings& world) {
   const IslandState& from = present_.state;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!moves_[i]) continue;
-    const Load& load = world.loads[bodies_[i]];
-    const Vec3 pull = pullOn(i, world);
-    to_.pose[i].x = from.pose[i].x + h * (from.velocity[i].v + 0.5 * h * pull) + shift_[i];
+    to_.pose[i].x =
+        from.pose[i].x + h * (from.velocity[i].v + 0.5 * h * pullOn(i, world)) + shift_[i];
     if (!turns(i)) continue;
-    momentum_[i] = momentumOf(i) + 0.5 * h * load.torque + twist_[i] / h;
+    Spin& spin = spins_[i];
+    momentum_[i] = spin.pushed + twist_[i] / h;
+    const Vec3 omega = inverseInertia_[i].cwiseProduct(spin.turned.transpose() * momentum_[i]);
+    const Vec3 guess = spin.mean + (omega - spin.omega);
+    spin.omega = omega;
+    spin.mean = isIsotropic(inertia_[i]) ? omega : freeTurn(inertia_[i], omega, h, 0.5, guess).mean;
     const Quat& q = from.pose[i].q;
-    const Vec3 omega = inverseInertia_[i].cwiseProduct(q.conjugate() * momentum_[i]);
-    const Vec3 mean = isIsotropic(inertia_[i]) ? omega : freeTurn(inertia_[i], omega, h).mean;
-    to_.pose[i].q = (exponential(h * (q * mean)) * q).normalized();
+    to_.pose[i].q = (exponential(h * (spin.turned * spin.mean)) * q).normalized();
   }
 }
 
@@ -209,6 +222,7 @@ bool SymmetricStep::meetsLimit(const Surroundings& world, const TrialPoses& tria
 bool SymmetricStep::step(double h, double tolerance, const Surroundings& world,
                          const TrialPoses& trial) {
   put(present_.state, trial.start);
+  begin(h, world);
   guess(h);
   if (!close(h, tolerance, world, trial)) {
     if (topology_->isTree) return false;

@@ -89,6 +89,11 @@ class SymmetricStep {
   struct Pull {
     Vec3 next = Vec3::Zero(), change = Vec3::Zero();
   };
+  // A body's, in the tries of a step.
+  struct Spin {
+    Mat3 turned;               // from its own frame, where the step begins
+    Vec3 pushed, omega, mean;  // kg m^2/s; rad/s in its own frame, halfway
+  };
   // All that a step changes.
   struct Present {
     IslandState state;
@@ -110,6 +115,7 @@ class SymmetricStep {
   void lookAtForces(const Surroundings& world, const TrialPoses& trial, double h);
   void guess(double h);
   void sum();
+  void begin(double h, const Surroundings& world);
   void move(double h, const Surroundings& world);
   bool resolvesForces() const;
   double mobilityOf(std::size_t row, const IslandRow& of) const;
@@ -138,6 +144,7 @@ class SymmetricStep {
   std::vector<Vec3> error_, lambda_;
   std::vector<IslandRow> ahead_;  // of joints, where the step ends
   IslandState to_;
+  std::vector<Spin> spins_;
   std::vector<Vec3> shift_, twist_, momentum_;  // of impulses [m, kg m^2], and halfway
 };
 

@@ -32,12 +32,13 @@ void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
 
 // Newton on F(Omega_m) = I Omega_m - (1 - e) M - e exp(-h Omega_m) M; dF = I - e h [M']x to first
 // order in h.
-FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end) {
+FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end,
+                   const Vec3& guess) {
   constexpr int kMostIterations = 30;
   const Vec3 momentum = inertia.cwiseProduct(omega);
   const double scale = momentum.norm();
-  FreeTurn turn{omega, omega, true};
-  if (scale == 0) return turn;
+  if (scale == 0) return {omega, omega, true};
+  FreeTurn turn{guess, omega, true};
   for (int k = 0; k < kMostIterations; ++k) {
     const Vec3 after = exponential(-dt * turn.mean) * momentum;
     const Vec3 residual = inertia.cwiseProduct(turn.mean) - ((1 - end) * momentum + end * after);
@@ -58,7 +59,7 @@ FreeTurn solveParts(const Vec3& inertia, const Vec3& omega, double dt, int parts
   FreeTurn whole{Vec3::Zero(), omega, true};
   Quat turned = Quat::Identity();
   for (int k = 0; k < parts && whole.converged; ++k) {
-    const FreeTurn part = solveTurn(inertia, whole.after, dt / parts, 0.5);
+    const FreeTurn part = solveTurn(inertia, whole.after, dt / parts, 0.5, whole.after);
     turned = turned * exponential(dt / parts * part.mean);
     whole = {whole.mean + part.mean / parts, part.after, part.converged};
   }
@@ -80,8 +81,13 @@ Vec3 unwrapped(const Vec3& turn, const Vec3& free) {
 }
 
 FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end) {
+  return freeTurn(inertia, omega, dt, end, omega);
+}
+
+FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end,
+                  const Vec3& guess) {
   constexpr int kMostParts = 4096;
-  FreeTurn turn = solveTurn(inertia, omega, dt, end);
+  FreeTurn turn = solveTurn(inertia, omega, dt, end, guess);
   for (int parts = 2; !turn.converged && end == 0.5 && parts <= kMostParts; parts *= 2) {
     turn = solveParts(inertia, omega, dt, parts);
   }

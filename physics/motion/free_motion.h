@@ -23,6 +23,8 @@ struct FreeTurn {
 // With `end` = 1 in place of 1/2, M' alone: I Omega_m = M', the backward Euler step, which keeps
 // the angular momentum and loses energy.
 FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end = 0.5);
+// The same, where about what Omega_m is is known.
+FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end, const Vec3& guess);
 
 // External loads of a step, world frame.
 struct Load {

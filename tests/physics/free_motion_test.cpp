@@ -132,6 +132,16 @@ TEST(FreeTurn, KeepsMomentumAndEnergyInOneLongStep) {
   EXPECT_LT((exponential(0.1 * turn.mean) * after - before).norm(), 1e-13);
 }
 
+TEST(FreeTurn, AGuessNearByLeadsToTheSameTurn) {
+  const Vec3 inertia(0.1, 0.4, 0.45), omega(3, -2, 5);
+  const double dt = 0.05;
+  const FreeTurn turn = freeTurn(inertia, omega, dt);
+  const FreeTurn again = freeTurn(inertia, omega, dt, 0.5, turn.mean + Vec3(0.3, 0.2, -0.4));
+  EXPECT_TRUE(again.converged);
+  EXPECT_NEAR(0, (turn.mean - again.mean).norm(), 1e-14 * omega.norm());
+  EXPECT_NEAR(0, (turn.after - again.after).norm(), 1e-14 * omega.norm());
+}
+
 // 1000 rad/s across a thin rod, 16.7 rad in a step: Newton's method finds no turn of one piece.
 TEST(FreeTurn, KeepsMomentumAndEnergyOfATumblingRodAtAnySpeed) {
   const Vec3 inertia(0.1, 0.001, 0.1), omega(1000, 300, 10);
