@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/base/rotation.h"
 #include "physics/bodies/triangles.h"
+#include "physics/make/matter.h"
 
 namespace physics {
 namespace {
@@ -13,24 +13,69 @@ namespace {
 constexpr double kLeft = 0.2;  // of a tetrahedron's volume: what moving its corners leaves at least
 constexpr int kRounds = 3;     // over the corners: one that could not move may later
 
-// The solid angle of a triangle seen from a point, as a share of a sphere (van Oosterom and
-// Strackee, 1983); the sum over a closed surface is 1 inside and 0 outside.
-double share(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& from) {
-  const Vec3 a = p - from, b = q - from, c = r - from;
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  const double above = a.dot(b.cross(c));
-  const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return 2 * arcTangent(above, below) / (4 * kPi);
-}
-
-bool isInside(const TriangleMesh& surface, const Vec3& point) {
-  double sum = 0;
-  for (const TriangleMesh::Face& face : surface.faces) {
-    sum += share(surface.vertices[face.vertices[0]], surface.vertices[face.vertices[1]],
-                 surface.vertices[face.vertices[2]], point);
+// Which points are inside of a closed surface: from where a line along x leaves it once more often
+// than it enters it. Triangles are kept by the squares across x that they reach into.
+class Inside {
+ public:
+  Inside(const TriangleMesh& surface, double pitch, const Vec3& low,
+         const std::array<int, 3>& cells)
+      : surface_(surface), pitch_(pitch), low_(low), cells_(cells) {
+    faces_.resize(static_cast<std::size_t>(cells[1]) * static_cast<std::size_t>(cells[2]));
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+      const auto& [a, b, c] = surface.faces[f].vertices;
+      const std::array<Vec3, 3> p{surface.vertices[a], surface.vertices[b], surface.vertices[c]};
+      const Vec3 least = p[0].cwiseMin(p[1]).cwiseMin(p[2]);
+      const Vec3 most = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
+      for (int y = square(1, least.y()); y <= square(1, most.y()); ++y) {
+        for (int z = square(2, least.z()); z <= square(2, most.z()); ++z) {
+          faces_[at(y, z)].push_back(static_cast<int>(f));
+        }
+      }
+    }
   }
-  return sum > 0.5;
-}
+
+  bool has(const Vec3& point) const {
+    // Beside corners and edges of what is built on the grid itself.
+    const Vec3 from = point + 1e-9 * pitch_ * Vec3(0, 1, std::sqrt(2.0));
+    int leaves = 0;
+    for (const int f : faces_[at(square(1, from.y()), square(2, from.z()))]) {
+      leaves += leavesBy(surface_.faces[f].vertices, from);
+    }
+    return leaves > 0;
+  }
+
+ private:
+  int square(int axis, double x) const {
+    return std::clamp(static_cast<int>((x - low_[axis]) / pitch_), 0, cells_[axis] - 1);
+  }
+  std::size_t at(int y, int z) const { return static_cast<std::size_t>(y * cells_[2] + z); }
+
+  // Twice the area that the edge spans with a line: the same but for its sign seen from both sides.
+  double span(int i, int j, const Vec3& from) const {
+    if (i > j) return -span(j, i, from);
+    const Vec3 p = surface_.vertices[i] - from, q = surface_.vertices[j] - from;
+    return p.y() * q.z() - q.y() * p.z();
+  }
+
+  // 1, or -1 where it enters, or 0 where it passes beside it.
+  int leavesBy(const std::array<int, 3>& corner, const Vec3& from) const {
+    const double ab = span(corner[0], corner[1], from), bc = span(corner[1], corner[2], from),
+                 ca = span(corner[2], corner[0], from);
+    const bool leaves = ab > 0 && bc > 0 && ca > 0;
+    if (!leaves && !(ab < 0 && bc < 0 && ca < 0)) return 0;
+    const double x =
+        (bc * surface_.vertices[corner[0]].x() + ca * surface_.vertices[corner[1]].x() +
+         ab * surface_.vertices[corner[2]].x()) /
+        (ab + bc + ca);
+    return x > from.x() ? (leaves ? 1 : -1) : 0;
+  }
+
+  const TriangleMesh& surface_;
+  double pitch_;
+  Vec3 low_;
+  std::array<int, 3> cells_;
+  std::vector<std::vector<int>> faces_;
+};
 
 // Ericson, Real-Time Collision Detection, 5.1.5.
 Vec3 nearestOn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
@@ -147,13 +192,17 @@ TetMesh fillMesh(std::span<const Vec3> vertices, std::span<const std::array<int,
   }
   TetMesh mesh = boxMesh(pitch * Vec3(counts[0], counts[1], counts[2]), counts);
   for (Vec3& node : mesh.nodes) node += 0.5 * (low + high);
+  const Inside inside(*surface, pitch, mesh.nodes[0], counts);
   std::erase_if(mesh.tets, [&](const std::array<int, 4>& tet) {
     const Vec3 middle =
         (mesh.nodes[tet[0]] + mesh.nodes[tet[1]] + mesh.nodes[tet[2]] + mesh.nodes[tet[3]]) / 4;
-    return !isInside(*surface, middle);
+    return !inside.has(middle);
   });
   require(!mesh.tets.empty(), "expected something inside of the surface: ask for more cells");
   dropUnused(mesh);
+  require(mesh.nodes.size() <= static_cast<std::size_t>(kMostBodies),
+          "expected at most " + std::to_string(kMostBodies) + " points, got " +
+              std::to_string(mesh.nodes.size()) + ": ask for fewer cells");
   drawToSurface(mesh, *surface);
   return mesh;
 }

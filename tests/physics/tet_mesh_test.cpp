@@ -137,6 +137,19 @@ TEST(FillMesh, OfACubeIsTheCube) {
   EXPECT_EQ(mesh.tets.size(), 5u * 64);
 }
 
+// A smaller cube inside of it, inside out: a line along x goes in, out, in and out.
+TEST(FillMesh, LeavesACavityEmpty) {
+  Surface surface = cube();
+  for (const Vec3& p : cube().vertices) surface.vertices.push_back(0.5 * p + Vec3::Constant(0.25));
+  for (const auto& [a, b, c] : cube().triangles) surface.triangles.push_back({a + 8, c + 8, b + 8});
+  EXPECT_NEAR(volumeOf(fillMesh(surface.vertices, surface.triangles, 8)), 1 - 0.125, 1e-12);
+}
+
+TEST(FillMesh, RefusesMorePointsThanASceneHoldsBodies) {
+  const Surface surface = cube();
+  EXPECT_THROW(fillMesh(surface.vertices, surface.triangles, 100), std::invalid_argument);
+}
+
 // Turned against the grid its corners are cut, and its faces drawn to.
 TEST(FillMesh, OfATurnedCubeHasNearlyItsVolumeAndNoFlatTetrahedra) {
   Surface surface = cube();
