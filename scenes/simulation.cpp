@@ -217,6 +217,12 @@ const std::string& Simulation::bodyName(physics::BodyId body) const {
   return impl_->built.names.at(static_cast<size_t>(body));
 }
 
+bool Simulation::isMeant(const Patterns& patterns, physics::BodyId body) const {
+  return matches(patterns, bodyName(body)) ||
+         std::any_of(patterns.any.begin(), patterns.any.end(),
+                     [&](const std::string& name) { return findBody(name) == body; });
+}
+
 physics::BodyId Simulation::findBody(const std::string& name) const {
   const auto found = impl_->built.ids.find(name);
   return found == impl_->built.ids.end() ? -1 : found->second;

@@ -75,6 +75,8 @@ class Simulation {
 
   const std::string& bodyName(physics::BodyId body) const;
   physics::BodyId findBody(const std::string& name) const;  // -1: none
+  // By its name, or by a second one such as "doll.head".
+  bool isMeant(const Patterns& patterns, physics::BodyId body) const;
 
   struct Appearance;  // colours and meshes, for the view
   const Appearance& appearance() const;

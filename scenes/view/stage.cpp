@@ -71,7 +71,7 @@ void includeAnchors(const Simulation& simulation, const CameraDef& camera, Motio
     const Vec3& anchor = fromA ? joint.pointA : joint.pointB;
     const bool drawn = isRod(joint.kind) ||
                        isHeldFromAfar(bodies, joint, held, fromA ? joint.pointB : joint.pointA);
-    if (drawn && matches(camera.fit, simulation.bodyName(held))) include(anchor, anchor, stage);
+    if (drawn && simulation.isMeant(camera.fit, held)) include(anchor, anchor, stage);
   }
 }
 
@@ -91,7 +91,7 @@ Vec3 followed(const Simulation& simulation, const CameraDef& camera,
   if (camera.follow.any.empty()) return sum;
   for (BodyId b = 1; b < simulation.world().bodyCount(); ++b) {
     if (isPlane(simulation.world().bodies(), b)) continue;
-    if (!matches(camera.follow, simulation.bodyName(b))) continue;
+    if (!simulation.isMeant(camera.follow, b)) continue;
     sum += poses[static_cast<size_t>(b)].x;
     ++count;
   }
@@ -111,7 +111,7 @@ MotionBounds stageOf(const Simulation& simulation, const MotionBounds& motion,
   }
   const double largest = isEmpty(stage) ? 1e9 : radiusOf(stage);
   for (BodyId b = 1; b < bodies.size(); ++b) {
-    const bool wanted = matches(camera.fit, simulation.bodyName(b));
+    const bool wanted = simulation.isMeant(camera.fit, b);
     if (!wanted || bodies.motion[b] != Motion::kStatic || isPlane(bodies, b)) continue;
     if (physics::boundingRadius(bodies.shape[b]) <= largest) {
       include(bodies.shape[b], bodies.pose[b], stage);
@@ -136,7 +136,7 @@ void MotionBounds::include(const Simulation& simulation, const CameraDef& camera
   const Vec3 middle = followed(simulation, camera, poses);
   for (BodyId b = 1; b < bodies.size(); ++b) {
     if (bodies.motion[b] == Motion::kStatic || isPlane(bodies, b)) continue;
-    if (!matches(camera.fit, simulation.bodyName(b))) continue;
+    if (!simulation.isMeant(camera.fit, b)) continue;
     physics::Pose pose = poses[static_cast<size_t>(b)];
     pose.x -= middle;
     scenes::include(bodies.shape[b], pose, *this);

@@ -108,6 +108,17 @@ TEST(Camera, FollowsABody) {
 }
 
 // A mast of 10 m, 0.1 m thick, and not the ball of 10 m around it.
+TEST(Camera, FitsAndFollowsByASecondName) {
+  const std::string doll = "[[ragdoll]]\nname = \"d\"\n[camera]\n";
+  MotionBounds head;
+  head.include(Simulation(sceneOf(doll + "fit = \"d.head\"\n")));
+  EXPECT_LT((head.high - head.low).norm(), 0.5);
+  EXPECT_GT(head.low.y(), 1.4);
+  MotionBounds around;
+  around.include(Simulation(sceneOf(doll + "follow = \"d.head\"\n")));
+  EXPECT_LT(around.high.y(), 0.2);
+}
+
 TEST(Camera, FitsShapesAsTheyAreTurned) {
   const auto boundsOf = [](const std::string& body) {
     const Simulation simulation(sceneOf("[[body]]\nname = \"mast\"\n" + body));
