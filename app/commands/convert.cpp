@@ -14,7 +14,7 @@ namespace app {
 namespace {
 
 struct ConvertOptions {
-  std::string model, file = "-";
+  std::string model, file = "-", keyframe;
 };
 
 ExitCode convert(const ConvertOptions& options) {
@@ -22,7 +22,9 @@ ExitCode convert(const ConvertOptions& options) {
     throw scenes::InputError(
         fmt::format("convert: expected a model, .xml, .mjcf or .urdf, got {}", options.model));
   }
-  const scenes::Scene scene = scenes::readScene(options.model);
+  std::vector<std::string> settings;
+  if (!options.keyframe.empty()) settings.push_back("keyframe=" + options.keyframe);
+  const scenes::Scene scene = scenes::readScene(options.model, settings);
   const std::string name = std::filesystem::path(options.model).filename().string();
   std::string text = fmt::format("# From {}.\n", name);
   for (const std::string& told : scene.told) {
@@ -44,6 +46,7 @@ void addConvert(CLI::App& line, Action& action) {
       "convert", "A model of other programs as a scene file: MJCF (.xml, .mjcf) and URDF (.urdf)");
   command->add_option("MODEL", options->model, "A file of MuJoCo's or ROS's")->required();
   command->add_option("-o,--out", options->file, "The scene file to write; - is standard output");
+  command->add_option("--keyframe", options->keyframe, "The <key> of MJCF that it starts in");
   command->callback([options, &action] { action = [options] { return convert(*options); }; });
 }
 

@@ -107,7 +107,8 @@ std::shared_ptr<Mjcf> openMjcf(XmlElement root, const std::string& folder, Model
   return mjcf;
 }
 
-Model readMjcf(XmlElement root, const std::string& path, ModelSurvey& survey) {
+Model readMjcf(XmlElement root, const std::string& path, ModelSurvey& survey,
+               const std::string& keyframe) {
   Model model;
   model.place = root.place;
   survey.asked(root.tag, "model");
@@ -120,6 +121,8 @@ Model readMjcf(XmlElement root, const std::string& path, ModelSurvey& survey) {
   if (mjcf->compiler.totalMass) scaleMasses(model, *mjcf->compiler.totalMass);
   readActuators(*mjcf);
   readPairs(*mjcf);
+  readTendons(*mjcf);
+  readKeyframes(*mjcf, keyframe);
   return model;
 }
 

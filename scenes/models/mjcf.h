@@ -40,6 +40,17 @@ struct MjcfMesh {
   physics::Pose reference;  // of the points' frame
 };
 
+struct MjcfHeights {
+  physics::Vec2 extent = physics::Vec2::Ones();  // m
+  std::vector<std::vector<double>> rows;         // m, as ours have them; empty: too many
+  int rowCount = 0, columnCount = 0;
+};
+
+struct MjcfSite {
+  int link = kWorldLink;
+  physics::Vec3 at = physics::Vec3::Zero();  // in the link's frame
+};
+
 struct MjcfMaterial {
   std::optional<std::array<double, 4>> rgba;
 };
@@ -58,9 +69,13 @@ struct Mjcf {
   MjcfCompiler compiler{};
   std::map<std::string, MjcfClass> classes{};
   std::map<std::string, MjcfMesh> meshes{};
+  std::map<std::string, MjcfHeights> heights{};
   std::map<std::string, MjcfMaterial> materials{};
   std::map<std::string, std::shared_ptr<Mjcf>> attachable{};
   std::map<std::string, int> links{};
+  std::map<std::string, MjcfSite> sites{};
+  std::map<std::string, std::vector<std::string>> repeated{};  // suffixes of a site, as it is named
+  std::size_t actuators = 0;                                   // read so far
   std::map<std::string, MjcfJointRef> joints{};
   std::set<std::string> freeJoints{};
   bool makesBodies = false;  // by <composite> or <flexcomp>, which are not read
@@ -84,6 +99,16 @@ void readAssets(Mjcf& mjcf);
 void readBodies(Mjcf& mjcf);
 void readActuators(Mjcf& mjcf);
 void readPairs(Mjcf& mjcf);  // <contact>, <equality>
+void readTendons(Mjcf& mjcf);
+// Starts in the <key> of this name; empty: as the bodies are drawn, and the names are told.
+void readKeyframes(Mjcf& mjcf, const std::string& wanted);
+
+void readHeightField(const XmlElement& element, Mjcf& mjcf);
+// False: one that is not read.
+bool readHeightShape(const Tag& tag, const Mjcf& mjcf, ModelPart& part);
+// A range where it is one: none where it is absent, or said not to limit.
+std::optional<std::array<double, 2>> rangeOf(const Tag& tag, const MjcfCompiler& compiler,
+                                             double unit);
 
 // A geom, in its body's frame; none where its kind is not read.
 std::optional<ModelPart> readGeom(const Tag& tag, Mjcf& mjcf);
@@ -93,6 +118,7 @@ ModelInertial readInertial(const Tag& tag, const Mjcf& mjcf);
 // All of a file that is to be attached, without its bodies.
 std::shared_ptr<Mjcf> openMjcf(XmlElement root, const std::string& folder, ModelSurvey& survey,
                                Model& model, int depth);
-Model readMjcf(XmlElement root, const std::string& path, ModelSurvey& survey);
+Model readMjcf(XmlElement root, const std::string& path, ModelSurvey& survey,
+               const std::string& keyframe = "");
 
 }  // namespace scenes

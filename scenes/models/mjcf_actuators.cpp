@@ -50,6 +50,7 @@ void readGains(const Tag& tag, ModelServo& servo) {
   if (kind == "position") {
     servo.stiffness = tag.number("kp", 1);
     servo.damping = tag.number("kv", 0);
+    servo.perControl = 1;
   } else if (kind == "velocity") {
     servo.damping = tag.number("kv", 1);
   } else if (kind == "general" && tag.text("biastype", "none") == "affine") {
@@ -57,16 +58,19 @@ void readGains(const Tag& tag, ModelServo& servo) {
     if (bias.size() > 0 && bias[0] != 0) tag.leaveOut("the constant of biasprm of <general>");
     if (bias.size() > 1) servo.stiffness = -bias[1];
     if (bias.size() > 2) servo.damping = -bias[2];
-    tag.numbers("gainprm");
+    const std::vector<double> gain = tag.numbers("gainprm");
+    if (servo.stiffness > 0) servo.perControl = (gain.empty() ? 1 : gain[0]) / servo.stiffness;
   } else {
     servo.kind = ModelServo::Kind::kTorque;
+    const std::vector<double> gain = tag.numbers("gainprm");
+    servo.perControl = gain.empty() ? 1 : gain[0];
     return;
   }
   servo.kind = ModelServo::Kind::kSpring;
   if (servo.stiffness < 0 || servo.damping < 0) tag.fail("expected kp and kv >= 0");
 }
 
-void readActuator(const XmlElement& element, Mjcf& mjcf) {
+void readActuator(const XmlElement& element, std::size_t index, Mjcf& mjcf) {
   static constexpr const char* kKinds[] = {"motor", "position", "velocity", "general"};
   const auto same = [&](const char* kind) { return element.tag == kind; };
   if (std::none_of(std::begin(kKinds), std::end(kKinds), same)) return;
@@ -75,11 +79,16 @@ void readActuator(const XmlElement& element, Mjcf& mjcf) {
   if (joint == nullptr) return;
   if (joint->kind == ModelJoint::Kind::kBall) return tag.leaveOut("an actuator of a ball joint");
   ModelServo servo;
+  servo.index = index;
   servo.place = tag.place();
   servo.name = mjcf.named(tag.name(tag.text("joint", "")));
   readGains(tag, servo);
   const std::vector<double> gear = tag.numbers("gear"), force = tag.numbers("forcerange", 2);
-  const double ratio = gear.empty() ? 1 : std::abs(gear[0]);
+  const double turned = gear.empty() ? 1 : gear[0], ratio = std::abs(turned);
+  const bool isTorque = servo.kind == ModelServo::Kind::kTorque;
+  servo.perControl = isTorque      ? turned * servo.perControl
+                     : turned != 0 ? servo.perControl / turned
+                                   : 0;
   servo.stiffness *= ratio * ratio;
   servo.damping *= ratio * ratio;
   if (!force.empty()) servo.most = ratio * std::max(std::abs(force[0]), std::abs(force[1]));
@@ -111,7 +120,9 @@ void readLoop(const XmlElement& element, Mjcf& mjcf) {
 void readActuators(Mjcf& mjcf) {
   for (const XmlElement* group : childrenOf(*mjcf.root, "actuator", mjcf.survey)) {
     mjcf.survey.seen(*group);
-    for (const XmlElement& element : group->children) readActuator(element, mjcf);
+    for (const XmlElement& element : group->children) {
+      readActuator(element, mjcf.actuators++, mjcf);
+    }
   }
 }
 

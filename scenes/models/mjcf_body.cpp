@@ -25,6 +25,7 @@ struct BodyReader {
   void children(const XmlElement& element, const Inside& inside);
   void body(const XmlElement& element, const Inside& inside);
   void joint(const XmlElement& element, const Inside& inside);
+  void site(const XmlElement& element, const Inside& inside);
   void frame(const XmlElement& element, Inside inside);
   void replicate(const XmlElement& element, const Inside& inside);
   void attach(const XmlElement& element, const Inside& inside);
@@ -56,6 +57,8 @@ void BodyReader::children(const XmlElement& element, const Inside& inside) {
       link(inside.link).parts.push_back(std::move(*part));
     } else if (child.tag == "joint" || child.tag == "freejoint") {
       joint(child, inside);
+    } else if (child.tag == "site") {
+      site(child, inside);
     } else if (child.tag == "inertial") {
       const Tag tag(child, mjcf.survey);
       if (mjcf.compiler.inertia == MjcfCompiler::Inertia::kParts) {
@@ -108,6 +111,17 @@ void BodyReader::joint(const XmlElement& element, const Inside& inside) {
     mjcf.joints[next.name] = {inside.link, static_cast<int>(to.joints.size())};
   }
   to.joints.push_back(std::move(next));
+}
+
+// A point with a name: how it is drawn does not matter.
+void BodyReader::site(const XmlElement& element, const Inside& inside) {
+  const Tag tag = tagOf(element, mjcf, inside.around);
+  mjcf.survey.seenWhole(element);
+  if (!tag.has("name")) return;
+  const Vec3 at = inside.frame.x + inside.frame.q * tag.vector("pos", Vec3::Zero());
+  const std::string name = tag.name("");
+  mjcf.sites[mjcf.named(name)] = {inside.link, at};
+  if (!mjcf.suffix.empty()) mjcf.repeated[name].push_back(mjcf.suffix);
 }
 
 void BodyReader::frame(const XmlElement& element, Inside inside) {
@@ -164,7 +178,10 @@ void BodyReader::attach(const XmlElement& element, const Inside& inside) {
     tag.fail(fmt::format("no body '{}' in '{}'", body, name));
   readActuators(part);
   readPairs(part);
+  readTendons(part);
 }
+
+}  // namespace
 
 std::optional<std::array<double, 2>> rangeOf(const Tag& tag, const MjcfCompiler& compiler,
                                              double unit) {
@@ -176,8 +193,6 @@ std::optional<std::array<double, 2>> rangeOf(const Tag& tag, const MjcfCompiler&
   if (range[0] > range[1]) tag.fail("range: expected the smaller number first");
   return std::array{range[0] * unit, range[1] * unit};
 }
-
-}  // namespace
 
 ModelJoint readJoint(const Tag& tag, const Mjcf& mjcf) {
   static constexpr const char* kTypes[] = {"hinge", "slide", "ball", "free"};

@@ -171,6 +171,9 @@ bool readShape(const Tag& tag, Mjcf& mjcf, ModelPart& part) {
     setPoints(tag, part, ellipsoid({size[0], size[1], size[2]}));
   } else if (type == "mesh") {
     return readMeshShape(tag, mjcf, part);
+  } else if (type == "hfield") {
+    part.pose.q = part.pose.q * kAlongY;
+    return readHeightShape(tag, mjcf, part);
   } else {
     tag.leaveOut(fmt::format("<geom> of type {}", type));
     return false;
@@ -201,6 +204,9 @@ unsigned bits(const Tag& tag, const char* key) {
 void readAssets(Mjcf& mjcf) {
   for (const XmlElement* assets : childrenOf(*mjcf.root, "asset", mjcf.survey)) {
     for (const XmlElement* mesh : childrenOf(*assets, "mesh", mjcf.survey)) readMesh(*mesh, mjcf);
+    for (const XmlElement* element : childrenOf(*assets, "hfield", mjcf.survey)) {
+      readHeightField(*element, mjcf);
+    }
     for (const XmlElement* element : childrenOf(*assets, "material", mjcf.survey)) {
       const Tag tag = tagOf(*element, mjcf);
       const std::vector<double> n = tag.numbers("rgba", 4);
@@ -216,7 +222,7 @@ std::optional<ModelPart> readGeom(const Tag& tag, Mjcf& mjcf) {
   part.name = tag.text("name") ? mjcf.named(tag.name("")) : "";
   part.pose = poseOf(tag, mjcf);
   if (!readShape(tag, mjcf, part)) return std::nullopt;
-  part.mass = tag.number("mass");
+  if (part.rows.empty()) part.mass = tag.number("mass");
   part.density = tag.number("density", 1000);
   if (part.mass.value_or(0) < 0 || part.density < 0) tag.fail("expected a mass >= 0");
   if (part.density == 0 && !part.mass) part.mass = 0;

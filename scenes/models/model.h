@@ -20,11 +20,13 @@ inline constexpr std::size_t kMostLinks = 10000, kMostParts = 50000, kMostPoints
 struct ModelPart {
   std::string name;
   Place place;
-  physics::Shape shape;               // as our words mean it: round ones along y
-  std::vector<physics::Vec3> points;  // of a Convex, in the part's frame
-  physics::Pose pose;                 // of the part's frame
-  std::optional<double> mass;         // kg; absent: by density
-  double density = 1000;              // kg/m^3
+  physics::Shape shape;                          // as our words mean it: round ones along y
+  std::vector<physics::Vec3> points;             // of a Convex, in the part's frame
+  std::vector<std::vector<double>> rows;         // of a ground of heights, instead of a shape [m]
+  physics::Vec2 extent = physics::Vec2::Zero();  // of it [m]
+  physics::Pose pose;                            // of the part's frame
+  std::optional<double> mass;                    // kg; absent: by density
+  double density = 1000;                         // kg/m^3
   std::optional<physics::Vec3> color;
   double opacity = 1;
   std::optional<double> friction;
@@ -45,7 +47,9 @@ struct ModelServo {  // a torque or force towards a position, a speed, or what i
   std::string name;
   Place place;
   double stiffness = 0, damping = 0;  // per rad or m
-  double target = 0;                  // where the joint's coordinate should be
+  double target = 0;                  // where the joint's coordinate should be, or a torque
+  std::size_t index = 0;              // of all actuators of the file
+  double perControl = 0;              // what `target` is for a control of 1
   std::optional<double> most;         // N m or N
 };
 
@@ -81,6 +85,16 @@ struct ModelLoop {
   bool welded = false;
 };
 
+// Two points of links that a string holds together.
+struct ModelString {
+  std::string name;
+  Place place;
+  std::array<int, 2> links{};
+  std::array<physics::Vec3, 2> at{physics::Vec3::Zero(), physics::Vec3::Zero()};  // link frames
+  double stiffness = 0, damping = 0;
+  std::optional<double> rest, most;  // m: of a spring, absent: as at the start; at the most
+};
+
 struct Model {
   std::string title;
   Place place;
@@ -88,6 +102,7 @@ struct Model {
   physics::Vec3 gravity{0, 0, -9.81};
   std::vector<ModelLink> links{1};  // parents stand before their children
   std::vector<ModelLoop> loops;
+  std::vector<ModelString> strings;
   std::size_t parts = 0, points = 0;    // of all links
   std::vector<std::vector<int>> apart;  // links of which none touches another
 };

@@ -42,13 +42,14 @@ bool isModel(const std::string& text, const std::string& path) {
   return isModelFile(path) && first != std::string::npos && text[first] == '<';
 }
 
-Value readModel(const std::string& text, const std::string& path, std::vector<std::string>& told) {
+Value readModel(const std::string& text, const std::string& path, std::vector<std::string>& told,
+                const std::string& keyframe) {
   const Context context{path, nullptr, nullptr};
   ModelSurvey survey(context);
   XmlElement root = parseXml(text, path);
   Value words;
   if (root.tag == "mujoco") {
-    words = wordsOf(readMjcf(std::move(root), path, survey), survey);
+    words = wordsOf(readMjcf(std::move(root), path, survey, keyframe), survey);
   } else if (root.tag == "robot") {
     auto kept = std::make_shared<XmlElement>(std::move(root));
     survey.keep(kept);

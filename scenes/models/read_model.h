@@ -12,7 +12,9 @@ bool isModelFile(const std::string& path);  // .xml, .mjcf or .urdf
 // Of such a file, and not the words that it has become, as runs keep them.
 bool isModel(const std::string& text, const std::string& path);
 
-// `told` gets a line for each thing of the file that is not read. Throws InputError.
-Value readModel(const std::string& text, const std::string& path, std::vector<std::string>& told);
+// `told` gets a line for each thing of the file that is not read. `keyframe`: the <key> of MJCF
+// that it starts in; empty: none. Throws InputError.
+Value readModel(const std::string& text, const std::string& path, std::vector<std::string>& told,
+                const std::string& keyframe = "");
 
 }  // namespace scenes

@@ -49,11 +49,20 @@ ModelInertial inertialOfUrdf(const XmlElement& element, ModelSurvey& survey) {
   }
   if (const XmlElement* inertia = childOf(element, "inertia", survey)) {
     const Tag tag(*inertia, survey);
-    const double xy = tag.number("ixy", 0), xz = tag.number("ixz", 0), yz = tag.number("iyz", 0);
-    out.inertia << tag.number("ixx", 0), xy, xz, xy, tag.number("iyy", 0), yz, xz, yz,
-        tag.number("izz", 0);
+    const double xx = tag.number("ixx", 0), xy = tag.number("ixy", 0), xz = tag.number("ixz", 0),
+                 yy = tag.number("iyy", 0), yz = tag.number("iyz", 0), zz = tag.number("izz", 0);
+    out.inertia << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   }
   return moved(out, originOf(element, survey));
+}
+
+// As Bullet has it: that of its shapes, of as much mass.
+void takeInertiaOfShapes(ModelLink& link, ModelSurvey& survey) {
+  ModelInertial own;
+  for (const ModelPart& part : link.parts) own = sum(own, inertialOf(part));
+  if (!(own.mass > 0)) return;
+  link.inertial->inertia = link.inertial->mass / own.mass * own.inertia;
+  survey.remark("a mass without moments of inertia: they are those of its shapes", link.place);
 }
 
 void UrdfReader::readLink(const XmlElement& element) {
@@ -91,12 +100,15 @@ void UrdfReader::readLink(const XmlElement& element) {
     if (!link.inertial) part->mass = 0;
     link.parts.push_back(std::move(*part));
   }
+  if (link.inertial && link.inertial->mass > 0 && link.inertial->inertia.isZero(0)) {
+    takeInertiaOfShapes(link, survey);
+  }
   links[link.name] = std::move(link);
 }
 
 void UrdfReader::readJoint(const XmlElement& element) {
-  static constexpr const char* kTypes[] = {"revolute", "continuous", "prismatic",
-                                           "fixed",    "floating",   "planar"};
+  static constexpr const char* kTypes[] = {"revolute", "continuous", "prismatic", "fixed",
+                                           "floating", "planar",     "spherical"};
   const Tag tag(element, survey);
   UrdfJoint out;
   out.place = out.joint.place = tag.place();
@@ -116,7 +128,9 @@ void UrdfReader::readJoint(const XmlElement& element) {
     (std::string(end) == "parent" ? out.parent : out.child) = name;
   }
   out.origin = originOf(element, survey);
-  out.joint.kind = out.type == "prismatic" ? ModelJoint::Kind::kSlide : ModelJoint::Kind::kHinge;
+  out.joint.kind = out.type == "prismatic"   ? ModelJoint::Kind::kSlide
+                   : out.type == "spherical" ? ModelJoint::Kind::kBall  // of Bullet's
+                                             : ModelJoint::Kind::kHinge;
   out.joint.axis = Vec3::UnitX();
   if (const XmlElement* axis = childOf(element, "axis", survey)) {
     const Tag one(*axis, survey);
@@ -176,7 +190,8 @@ void UrdfReader::place(const std::string& name, int parent, const UrdfJoint* by)
 
 void UrdfReader::build() {
   std::vector<std::string> roots;
-  for (const auto& [name, link] : links) {
+  for (const auto& link : links) {
+    const std::string& name = link.first;
     const auto isChild = [&](const UrdfJoint& joint) { return joint.child == name; };
     if (std::none_of(joints.begin(), joints.end(), isChild)) roots.push_back(name);
   }

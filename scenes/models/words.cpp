@@ -41,6 +41,12 @@ Value Words::texts(const std::vector<std::string>& items) const {
   return array(std::move(out));
 }
 
+Value Words::numbers(const std::vector<double>& items) const {
+  std::vector<Value> out;
+  for (const double item : items) out.push_back(number(item));
+  return array(std::move(out));
+}
+
 Value Words::vector(const physics::Vec3& value) const {
   return array({number(value.x()), number(value.y()), number(value.z())});
 }

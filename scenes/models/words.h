@@ -18,6 +18,7 @@ struct Words {
   Value text(const std::string& value) const;
   Value array(std::vector<Value> items) const;
   Value texts(const std::vector<std::string>& items) const;
+  Value numbers(const std::vector<double>& items) const;
   Value vector(const physics::Vec3& value) const;
   Value vectors(const std::vector<physics::Vec3>& values) const;
   Value quaternion(const physics::Quat& value) const;

@@ -17,7 +17,14 @@ bool moves(const ModelLink& link) { return link.free || !link.joints.empty(); }
 Value shapeOf(const ModelPart& part, const Words& words) {
   Value inner = words.table(), shape = words.table();
   const char* word = "convex";
-  if (const auto* box = std::get_if<physics::Box>(&part.shape)) {
+  if (!part.rows.empty()) {
+    word = "heights";
+    words.set(inner, "size",
+              words.array({words.number(part.extent.x()), words.number(part.extent.y())}));
+    Value rows = words.array({});
+    for (const std::vector<double>& row : part.rows) rows.items.push_back(words.numbers(row));
+    words.set(inner, "rows", std::move(rows));
+  } else if (const auto* box = std::get_if<physics::Box>(&part.shape)) {
     word = "box";
     words.set(inner, "size", words.vector(box->size));
   } else if (const auto* sphere = std::get_if<physics::Sphere>(&part.shape)) {
@@ -261,14 +268,28 @@ void findCarriers(Written& written) {
   }
 }
 
+// A field of heights is ground: it does not move.
+void leaveOutMovingHeights(Written& written) {
+  for (std::size_t k = 0; k < written.whole.size(); ++k) {
+    if (written.carrier[k] == kWorldLink) continue;
+    std::erase_if(written.whole[k].parts, [&](const ModelPart& part) {
+      if (part.rows.empty()) return false;
+      written.survey.leaveOut("<geom> of an <hfield> on a body that moves", part.place);
+      return true;
+    });
+  }
+}
+
 void writeBodies(Written& written) {
+  leaveOutMovingHeights(written);
   written.used["world"] = 1;
   for (int k = 0; k < static_cast<int>(written.whole.size()); ++k) {
     const auto at = static_cast<std::size_t>(k);
     const int carrier = written.carrier[at];
     if (carrier == kWorldLink) {
       writeStanding(written, k);
-      written.bodies[at] = {"world", {}};
+      // Its points are written with Y up.
+      written.bodies[at] = {"world", {Vec3::Zero(), yUp(Pose{}).q.conjugate()}};
     } else if (carrier == k) {
       writeMoving(written, k);
     } else {

@@ -101,7 +101,7 @@ void writeServos(Written& written, const Joined& joined) {
     } else if (joint.kind == ModelJoint::Kind::kHinge) {
       Value motor = tableOf(joined, words, servo.name);
       words.set(motor, "axis", words.vector(yUp(joined.axis)));
-      words.set(motor, "stall_torque", words.number(0));
+      words.set(motor, "stall_torque", words.number(servo.target));
       words.add(written.root, "motor_torque", std::move(motor));
     } else {
       written.survey.leaveOut("a motor of a slide", servo.place);
@@ -171,6 +171,32 @@ void writeLoop(Written& written, const ModelLoop& loop) {
   words.add(written.root, "ball_socket", std::move(ball));
 }
 
+// A spring, a rope of that length, or both.
+void writeString(Written& written, const ModelString& string) {
+  const auto a = static_cast<std::size_t>(string.links[0]),
+             b = static_cast<std::size_t>(string.links[1]);
+  const WrittenBody &from = written.bodies[a], &to = written.bodies[b];
+  const Words words{string.place};
+  if (from.name == to.name) return;
+  const Vec3 start = written.pose[a].x + written.pose[a].q * string.at[0];
+  const Vec3 end = written.pose[b].x + written.pose[b].q * string.at[1];
+  Value table = words.table();
+  if (!string.name.empty()) words.set(table, "name", words.text(string.name));
+  words.set(table, "bodies", words.texts({from.name, to.name}));
+  words.set(table, "anchors", words.vectors({inFrame(from.frame, start), inFrame(to.frame, end)}));
+  if (string.most) {
+    Value rope = table;
+    words.set(rope, "length", words.number(*string.most));
+    words.set(rope, "rope", words.boolean(true));
+    words.add(written.root, "distance", std::move(rope));
+  }
+  if (string.stiffness == 0 && string.damping == 0) return;
+  words.set(table, "stiffness", words.number(string.stiffness));
+  words.set(table, "damping", words.number(string.damping));
+  if (string.rest) words.set(table, "rest_length", words.number(*string.rest));
+  words.add(written.root, "spring", std::move(table));
+}
+
 }  // namespace
 
 void writeJoints(Written& written) {
@@ -195,6 +221,7 @@ void writeJoints(Written& written) {
     }
   }
   for (const ModelLoop& loop : written.model.loops) writeLoop(written, loop);
+  for (const ModelString& string : written.model.strings) writeString(written, string);
 }
 
 }  // namespace scenes

@@ -119,11 +119,24 @@ physics::Settings checkedSettings(const TableReader& root, const physics::Settin
   return settings;
 }
 
+// keyframe=NAME, of a model: none of the words that it becomes.
+std::string takeKeyframe(std::vector<std::string>& settings) {
+  const std::string key = "keyframe=";
+  std::string name;
+  std::erase_if(settings, [&](const std::string& setting) {
+    if (!setting.starts_with(key)) return false;
+    name = setting.substr(key.size());
+    return true;
+  });
+  return name;
+}
+
 // The words of a scene file, or those that a model becomes, with what it includes.
-Value readTree(const std::string& text, const Context& context, Scene& scene) {
+Value readTree(const std::string& text, const Context& context, const std::string& keyframe,
+               Scene& scene) {
   Value tree;
   if (isModel(text, context.path)) {
-    tree = readModel(text, context.path, scene.told);
+    tree = readModel(text, context.path, scene.told, keyframe);
     // What it is made of is in other files as well.
     scene.text = tomlOf(tree, std::filesystem::path(context.path).parent_path().string());
   } else {
@@ -142,8 +155,10 @@ Scene parseScene(const std::string& text, const std::string& path,
                  std::span<const std::string> overrides, Glossary* glossary) {
   Context context{path, nullptr, glossary};
   Scene scene;
-  Value tree = readTree(text, context, scene);
-  const auto others = setParameters(tree, applyStability(tree, path, overrides));
+  std::vector<std::string> settings(overrides.begin(), overrides.end());
+  const std::string keyframe = isModel(text, path) ? takeKeyframe(settings) : "";
+  Value tree = readTree(text, context, keyframe, scene);
+  const auto others = setParameters(tree, applyStability(tree, path, settings));
   expand(tree, context);
   for (const std::string& setting : others) applyOverride(tree, setting);
   scene.name = std::filesystem::path(path).stem().string();

@@ -208,11 +208,11 @@ TEST(Mjcf, TellsWhatItDoesNotReadOnceAndWhere) {
   const Scene scene =
       modelOf(mujoco("<statistic extent='2'/>\n"
                      "<worldbody>\n<body name='a'><freejoint/>\n<geom size='1' condim='1'/>\n"
-                     "<site name='s'/></body>\n<body name='b' pos='4 0 0'><freejoint/>\n"
+                     "<camera name='s'/></body>\n<body name='b' pos='4 0 0'><freejoint/>\n"
                      "<geom size='1' condim='3'/></body></worldbody>"));
   const std::vector<std::string> expected = {"m.xml:2: not read: <statistic>",
                                              "m.xml:5: not read: condim of <geom> (also line 8)",
-                                             "m.xml:6: not read: <site>"};
+                                             "m.xml:6: not read: <camera>"};
   EXPECT_EQ(scene.told, expected);
 }
 

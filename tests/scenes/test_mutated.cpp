@@ -34,6 +34,7 @@ std::string textOf(const std::string& path) {
 
 const std::vector<std::string>& models() {
   static const std::vector<std::string> texts = {textOf(DBD_TEST_FOLDER "/models/creature.xml"),
+                                                 textOf(DBD_TEST_FOLDER "/models/hills.xml"),
                                                  textOf(DBD_TEST_FOLDER "/models/crane.urdf")};
   return texts;
 }
