@@ -54,9 +54,10 @@ std::vector<int> readJoints(TableReader& reader, const physics::Skeleton& skelet
     TableReader names(*table, "bvh.joints", context);
     for (std::size_t b = 0; b < joints.size(); ++b) {
       const std::string& bone = skeleton.bones[b].name;
-      if (!names.has(bone)) continue;
+      const Value* value = names.take(bone);
+      if (value == nullptr) continue;
       std::string name;
-      names(Field{bone.c_str()}, name);
+      readValue(*value, names.spot({bone.c_str()}), name);
       joints[b] = bvh.find(name);
       if (name.empty() || joints[b] < 0) {
         names.failAt(bone.c_str(),

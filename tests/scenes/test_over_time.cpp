@@ -12,7 +12,7 @@ namespace {
 
 std::string pushed(const std::string& table) {
   return "duration = 1\n" + ball("a") +
-         "[[force]]\nbody = \"a\"\nforce = [0, 2, 0]\nover_time = " + table + "\n";
+         "mass = 1\n[[force]]\nbody = \"a\"\nforce = [0, 2, 0]\nover_time = " + table + "\n";
 }
 
 double speedAfterOneSecond(const Scene& scene) {
@@ -43,22 +43,22 @@ TEST(OverTimeInAScene, IsReadFromPointsAndFiles) {
 TEST(OverTimeInAScene, TellsWhatIsWrongAtItsPlace) {
   const auto wrong = [](const std::string& table) { return errorOf(pushed(table)); };
   EXPECT_EQ(wrong("2"),
-            "test.toml:8:13: force.over_time: expected an array of [time, factor] or { "
+            "test.toml:9:13: force.over_time: expected an array of [time, factor] or { "
             "points | file, repeat }, got 2");
   EXPECT_EQ(wrong("[[0, 1], [2]]"),
-            "test.toml:8:22: force.over_time: expected [time, factor], got an array of 1");
+            "test.toml:9:22: force.over_time: expected [time, factor], got an array of 1");
   EXPECT_EQ(wrong("[]"),
-            "test.toml:8:13: force.over_time: a table over time needs at least one "
+            "test.toml:9:13: force.over_time: a table over time needs at least one "
             "point");
   EXPECT_EQ(wrong("[[1, 0], [0, 0]]"),
-            "test.toml:8:13: force.over_time: times of a table over time must not decrease");
+            "test.toml:9:13: force.over_time: times of a table over time must not decrease");
   EXPECT_EQ(wrong("{ points = [[0, 1]], repeat = true }"),
-            "test.toml:8:13: force.over_time: a table over time that repeats must have points at "
+            "test.toml:9:13: force.over_time: a table over time that repeats must have points at "
             "two times");
   EXPECT_EQ(wrong("{ file = \"none.csv\" }"),
-            "test.toml:8:22: force.over_time.file: no file 'none.csv' beside the scene");
+            "test.toml:9:22: force.over_time.file: no file 'none.csv' beside the scene");
   EXPECT_EQ(wrong("{ repeat = true }"),
-            "test.toml:8:13: force.over_time: expected 'points' or 'file'");
+            "test.toml:9:13: force.over_time: expected 'points' or 'file'");
 }
 
 TEST(OverTimeInAScene, IsOfMotorsHingesAndDrives) {
