@@ -10,9 +10,10 @@
 namespace render {
 namespace {
 
-// Segments around a round body, by level of detail. A silhouette of n segments is off by
-// 5 r / n^2 pixels, so each level serves radii up to n^2 / 25 pixels with an error of a fifth.
-constexpr std::array<int, 4> kSegments = {16, 32, 64, 128};
+// Segments around a round body, by level of detail, in fours. A silhouette of n segments is off by
+// 2.5 r / n^2 pixels, so each level serves radii up to n^2 / 25 pixels with an error of a tenth.
+// Small triangles cost most of a picture: a level more is a few kilobytes.
+constexpr std::array kSegments = {8, 12, 16, 20, 24, 28, 32, 40, 48, 64, 96, 128};
 constexpr std::size_t kLevels = kSegments.size();
 constexpr std::size_t kFirstMesh = 1 + 3 * kLevels;
 
@@ -22,6 +23,14 @@ std::size_t levelFor(float radiusInPixels) {
          radiusInPixels > static_cast<float>(kSegments[level] * kSegments[level]) / 25)
     ++level;
   return level;
+}
+
+// The radius of what is round of it.
+float roundingOf(const Instance& instance) {
+  const Vec3f size = instance.size.cwiseAbs();
+  return (instance.primitive == Primitive::kSphere ? size.maxCoeff()
+                                                   : std::max(size.x(), size.z())) /
+         2;
 }
 
 }  // namespace
@@ -113,10 +122,8 @@ void Bodies::sortInstances(const Picture& picture, const Frame& frame) {
     const float alpha = instance.color.w();
     if (alpha <= 0) continue;
     const float depth = frame.depthOf(instance.position);
-    const float thick = instance.primitive == Primitive::kSphere
-                            ? instance.size.cwiseAbs().maxCoeff()
-                            : std::max(std::abs(instance.size.x()), std::abs(instance.size.z()));
-    const float pixels = frame.pixelsPerMetre * thick / 2 / std::max(depth, frame.nearest);
+    const float pixels =
+        frame.pixelsPerMetre * roundingOf(instance) / std::max(depth, frame.nearest);
     sorted_.push_back({shapeOf(instance, pixels), i, depth, alpha >= 1});
   }
   const auto key = [](const Sorted& s) {
@@ -151,24 +158,23 @@ void Bodies::fillBatches(const Picture& picture) {
   }
 }
 
-void Bodies::findCasters(const Picture& picture) {
+// As fine as a texel of the map shows.
+void Bodies::findCasters(const Picture& picture, const Frame& frame) {
   casters_.clear();
   if (!picture.light.shadows) return;
-  std::vector<const Sorted*> inOrder(picture.instances.size(), nullptr);
-  for (const Sorted& s : sorted_) inOrder[s.instance] = &s;
-  for (std::size_t i = 0; i < inOrder.size(); ++i) {
-    if (inOrder[i] == nullptr || picture.instances[i].color.w() < 0.5f) continue;
-    const InstanceData data = dataOf(picture.instances[i]);
-    const std::size_t shape = inOrder[i]->shape;
+  for (const Instance& instance : picture.instances) {
+    if (instance.color.w() < 0.5f) continue;
+    const InstanceData data = dataOf(instance);
+    const std::size_t shape = shapeOf(instance, frame.texelsPerMetre * roundingOf(instance));
     casters_.push_back({shape, shapes_[shape].upload, data.place, data.turn, data.scale});
   }
 }
 
 void Bodies::arrange(const Picture& picture, const Frame& frame) {
   sortInstances(picture, frame);
+  findCasters(picture, frame);
   dropUnusedMeshes();
   fillBatches(picture);
-  findCasters(picture);
   fillBuffer(GL_ARRAY_BUFFER, instanceBuffer_, data_, GL_STREAM_DRAW);
 }
 
@@ -198,16 +204,24 @@ void Bodies::drawCasters(std::span<const std::size_t> which) {
   }
   fillBuffer(GL_ARRAY_BUFFER, casterBuffer_, data, GL_STREAM_DRAW);
   glUseProgram(casterProgram_);
-  for (const Batch& batch : batches) drawBatch(batch, casterBuffer_);
+  for (const Batch& batch : batches) {
+    cullBack(batch);
+    drawBatch(batch, casterBuffer_);
+  }
+  glDisable(GL_CULL_FACE);
+}
+
+void Bodies::cullBack(const Batch& batch) const {
+  if (shapes_[batch.shape].closed)
+    glEnable(GL_CULL_FACE);
+  else
+    glDisable(GL_CULL_FACE);
 }
 
 void Bodies::draw() const {
   glUseProgram(colorProgram_);
   for (const Batch& batch : batches_) {
-    if (shapes_[batch.shape].closed)
-      glEnable(GL_CULL_FACE);
-    else
-      glDisable(GL_CULL_FACE);
+    cullBack(batch);
     if (batch.opaque)
       glDisable(GL_BLEND);
     else

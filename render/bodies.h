@@ -62,8 +62,9 @@ class Bodies {
   void dropUnusedMeshes();
   void sortInstances(const Picture& picture, const Frame& frame);
   static InstanceData dataOf(const Instance& instance);
-  void findCasters(const Picture& picture);
+  void findCasters(const Picture& picture, const Frame& frame);
   void fillBatches(const Picture& picture);
+  void cullBack(const Batch& batch) const;
   void drawBatch(const Batch& batch, GLuint instances) const;
 
   GLuint colorProgram_ = 0, casterProgram_ = 0, instanceBuffer_ = 0, casterBuffer_ = 0;

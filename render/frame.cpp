@@ -153,6 +153,7 @@ void setShadow(Frame& frame, const Picture& picture, const Detail& detail) {
   const LightView light(picture.light.direction, picture);
   const float radius = light.radius;
   const float texel = 2 * radius / static_cast<float>(detail.shadowSize);
+  frame.texelsPerMetre = 1 / texel;
   frame.block.toShadow = light.matrix(picture.focusCenter);
   frame.block.towardLight.head<3>() = -light.along;
   frame.block.towardLight.w() = 0;

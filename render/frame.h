@@ -51,6 +51,7 @@ struct Frame {
   Eigen::Vector3f eye, right, up, ahead;  // orthonormal; `ahead` looks at the target
   float nearest = 0;                      // distance of the near plane
   float pixelsPerMetre = 0;               // of something one metre away
+  float texelsPerMetre = 0;               // of shadow maps
   float scale = 1;                        // scene pixels per pixel of a picture of 720 lines
   bool groundDrawn = false;
   std::vector<Ball> balls;  // around all bodies and surfaces

@@ -19,6 +19,10 @@ void addQuad(Geometry& geometry, std::uint32_t a, std::uint32_t b, std::uint32_t
   for (const std::uint32_t index : {a, b, c, a, c, d}) geometry.indices.push_back(index);
 }
 
+// Of a polygon that is as far outside the circle of radius 1/2 at its corners as it is within it
+// between them.
+double cornerRadius(int segments) { return 1 / (1 + std::cos(kPi / segments)); }
+
 // One circle of vertices on the sphere at `latitude`; the first is repeated at the end.
 void addRing(Geometry& geometry, int segments, double latitude, float end) {
   for (int i = 0; i <= segments; ++i) {
@@ -26,7 +30,8 @@ void addRing(Geometry& geometry, int segments, double latitude, float end) {
     const auto x = static_cast<float>(std::cos(latitude) * std::cos(longitude));
     const auto y = static_cast<float>(std::sin(latitude));
     const auto z = static_cast<float>(-std::cos(latitude) * std::sin(longitude));
-    geometry.vertices.push_back({{x / 2, y / 2, z / 2, end}, {x, y, z}, {0, 0}});
+    const auto r = static_cast<float>(cornerRadius(segments));
+    geometry.vertices.push_back({{r * x, r * y, r * z, end}, {x, y, z}, {0, 0}});
   }
 }
 
@@ -34,6 +39,15 @@ void joinRings(Geometry& geometry, int segments, std::uint32_t lower, std::uint3
   for (int i = 0; i < segments; ++i) {
     const auto k = static_cast<std::uint32_t>(i);
     addQuad(geometry, lower + k, lower + k + 1, upper + k + 1, upper + k);
+  }
+}
+
+// Each piece of the last or first ring, which is a pole, has no length.
+void joinPole(Geometry& geometry, int segments, std::uint32_t ring, std::uint32_t pole) {
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(segments); ++k) {
+    const std::uint32_t from = pole > ring ? k : k + 1, to = pole > ring ? k + 1 : k;
+    for (const std::uint32_t index : {ring + from, ring + to, pole + k})
+      geometry.indices.push_back(index);
   }
 }
 
@@ -47,19 +61,22 @@ Geometry roundBody(int segments, bool capsule) {
   for (int ring = capsule ? 0 : 1; ring <= half; ++ring)
     addRing(geometry, segments, kPi / 2 * ring / half, capsule ? 1.0f : 0.0f);
   const std::uint32_t rings = countOf(geometry) / stride;
-  for (std::uint32_t ring = 0; ring + 1 < rings; ++ring)
+  joinPole(geometry, segments, stride, 0);
+  for (std::uint32_t ring = 1; ring + 2 < rings; ++ring)
     joinRings(geometry, segments, ring * stride, (ring + 1) * stride);
+  joinPole(geometry, segments, (rings - 2) * stride, (rings - 1) * stride);
   return geometry;
 }
 
 void addCap(Geometry& geometry, int segments, float y) {
   const std::uint32_t center = countOf(geometry);
+  const double r = cornerRadius(segments);
   const float normal = y > 0 ? 1.0f : -1.0f;
   geometry.vertices.push_back({{0, y, 0, 0}, {0, normal, 0}, {0, 0}});
   for (int i = 0; i <= segments; ++i) {
     const double angle = 2 * kPi * i / segments;
-    const auto x = static_cast<float>(std::cos(angle) / 2);
-    const auto z = static_cast<float>(-std::sin(angle) / 2);
+    const auto x = static_cast<float>(r * std::cos(angle));
+    const auto z = static_cast<float>(-r * std::sin(angle));
     geometry.vertices.push_back({{x, y, z, 0}, {0, normal, 0}, {1, 0}});
   }
   for (std::uint32_t i = 1; i <= static_cast<std::uint32_t>(segments); ++i) {
@@ -113,11 +130,12 @@ Geometry unitCapsule(int segments) { return roundBody(segments, true); }
 
 Geometry unitCylinder(int segments) {
   Geometry geometry;
+  const auto r = static_cast<float>(cornerRadius(segments));
   for (const float y : {-0.5f, 0.5f}) {
     for (int i = 0; i <= segments; ++i) {
       const double angle = 2 * kPi * i / segments;
       const auto x = static_cast<float>(std::cos(angle)), z = static_cast<float>(-std::sin(angle));
-      geometry.vertices.push_back({{x / 2, y, z / 2, 0}, {x, 0, z}, {2 * y, 0}});
+      geometry.vertices.push_back({{r * x, y, r * z, 0}, {x, 0, z}, {2 * y, 0}});
     }
   }
   joinRings(geometry, segments, 0, static_cast<std::uint32_t>(segments) + 1);

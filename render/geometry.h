@@ -21,7 +21,9 @@ struct Geometry {
 };
 
 Geometry unitBox();
-Geometry unitSphere(int segments);    // diameter 1; `segments` around, even
+// Round ones have `segments` around, a multiple of four; their corners are as far outside the true
+// surface as the middles of the edges around are within it.
+Geometry unitSphere(int segments);    // diameter 1
 Geometry unitCapsule(int segments);   // diameter 1, ends apart by Vertex::position[3]
 Geometry unitCylinder(int segments);  // diameter 1, length 1 along y
 // Throws std::invalid_argument when counts differ or an index is out of range.

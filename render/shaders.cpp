@@ -117,18 +117,23 @@ flat in float vMarked;
 out vec4 color;
 
 #ifndef EXPOSED
-// Taps on a square. Two opposite corners that agree speak for all; and the loop's length is data:
-// a software rasteriser leaves it as soon as no pixel of a group needs more.
+// Taps on a square. Two opposite corners that agree speak for all; and the loops' lengths are data:
+// a software rasteriser leaves them as soon as no pixel of a group needs more.
 float lit(float facing, vec3 inShadow) {
   float side = shadow.w, sum = 0.0;
   vec2 middle = abs(inShadow.xy - 0.5);  // beyond the map it is not known: lit
   int count = facing > 0.0 && max(middle.x, middle.y) < 0.5 ? int(side * side) : 0;
-  float depth = min(inShadow.z, 1.0);
-  for (int i = 0; i < count; ++i) {
-    float k = i == 0 ? 0.0 : float(count - i), row = floor((k + 0.5) / side);
-    vec2 tap = (vec2(k - row * side, row) - 0.5 * (side - 1.0)) * shadow.z;
+  float depth = min(inShadow.z, 1.0), reach = 0.5 * (side - 1.0);
+  int corners = min(count, 2);
+  for (int i = 0; i < corners; ++i) {
+    vec2 tap = vec2((i == 0 ? -reach : reach) * shadow.z);
     sum += textureLod(shadowMap, vec3(inShadow.xy + tap, depth), 0.0);
-    if (i == 1 && abs(sum - 1.0) == 1.0) return 0.5 * sum;
+  }
+  if (abs(sum - 1.0) == 1.0) count = corners;
+  for (int i = 1; i < count - 1; ++i) {
+    float row = floor((float(i) + 0.5) / side);
+    vec2 tap = (vec2(float(i) - row * side, row) - reach) * shadow.z;
+    sum += textureLod(shadowMap, vec3(inShadow.xy + tap, depth), 0.0);
   }
   return count > 0 ? sum / float(count) : 1.0;
 }

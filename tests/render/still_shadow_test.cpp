@@ -122,6 +122,18 @@ TEST(DrawCounts, OneOfManyBodiesMovesAndOneIsDrawn) {
   EXPECT_EQ(renderer.counts().shadowMasks, before.shadowMasks);
 }
 
+TEST(DrawCounts, ACameraThatComesNearerLeavesTheShadowsOfRoundBodiesAlone) {
+  Renderer renderer({640, 360, Quality::kDraft, ""});
+  Picture picture;
+  picture.instances.resize(1);
+  picture.instances[0].primitive = Primitive::kSphere;
+  for (const float away : {60.0f, 20.0f, 4.0f}) {
+    picture.camera.eye = picture.camera.target + Vec3f(0, 0, away);
+    renderer.draw(picture);
+  }
+  EXPECT_EQ(renderer.counts().shadowMaps, 1);
+}
+
 TEST(DrawCounts, WhatNoPictureAskedForStaysAtZero) {
   Renderer renderer({64, 64, Quality::kDraft, ""});
   Picture picture = pyramidPicture(3);
