@@ -29,20 +29,15 @@ inline void archive(Archive& a, Bounds& bounds) {
   a(low, high);
 }
 
-// Its motion; what it is was added.
+// What it is was added, and its motion is that of the last look.
 inline void archive(Archive& a, Item& item) {
   auto& [travel, turn, move, body, movable, rests, isPlane, isPart, x, R, solid, inBody] = item;
-  a(travel, turn, move, rests, x, R);
+  a(travel, rests);
 }
 
 inline void archive(Archive& to, Watch& watch) {
   auto& [a, b, finding, count, known, isNew, more, calls, travel, distance, reach, n] = watch;
   to(a, b, finding, count, known, isNew, more, calls, travel, distance, reach, n);
-}
-
-inline void archive(Archive& a, Finding& finding) {
-  auto& [pose, manifold, more] = finding;
-  a(pose, manifold, more);
 }
 
 }  // namespace collision

@@ -137,14 +137,17 @@ Watch Pairs::newWatch(int p, int q) {
   watch.b = q;
   watch.finding = free_.back();
   free_.pop_back();
-  Manifold& manifold = findings_[watch.finding].manifold;
-  const Item &a = items_[p], &b = items_[q];
+  name(watch, findings_[watch.finding].manifold);
+  return watch;
+}
+
+void Pairs::name(const Watch& watch, Manifold& manifold) const {
+  const Item &a = items_[watch.a], &b = items_[watch.b];
   manifold.a = a.body;
   manifold.b = b.body;
   manifold.radial = b.solid.kind <= Kind::sphere && !a.isPart && !b.isPart;
   manifold.carried = b.solid.kind >= Kind::box;
-  manifold.pair = pairKey(p, q);
-  return watch;
+  manifold.pair = pairKey(watch.a, watch.b);
 }
 
 void Pairs::dropParted() {
@@ -210,12 +213,16 @@ bool Pairs::takeMotion(int i, const Pose& bodyFrom, const Pose& bodyTo) {
   const bool planeMoved = item.isPlane && (R != item.R || from.x != item.x);
   const double reach = item.isPlane ? kPlaneReach : item.solid.size;
   item.travel += (from.x - item.x).norm() + reach * std::sqrt(0.5) * (R - item.R).norm();
-  item.R = R;
+  told_[i] = {from, to};
+  setMotion(item, from, to);
+  return planeMoved;
+}
+
+void Pairs::setMotion(Item& item, const Pose& from, const Pose& to) {
+  item.R = from.q.toRotationMatrix();
   item.x = from.x;
   item.move = to.x - from.x;
-  told_[i] = {from, to};
   item.turn = item.solid.coreRadius * 2 * (from.q.conjugate() * to.q).vec().norm();
-  return planeMoved;
 }
 
 void Pairs::fatten(int i, const Bounds& bounds, double margin) {

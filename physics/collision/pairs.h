@@ -59,6 +59,9 @@ class Pairs {
   void findNew();
   void mergeFresh();
   Watch newWatch(int p, int q);
+  void name(const Watch& watch, Manifold& manifold) const;
+  void archiveFinding(Archive& a, const Watch& watch);
+  static void setMotion(Item& item, const Pose& from, const Pose& to);
 
   std::vector<Item> items_;
   std::vector<std::pair<Pose, Pose>> told_;  // by item: the motion that find() was given

@@ -10,12 +10,17 @@ namespace physics {
 void SmallSteps::archive(Archive& a, Model& w) {
   Impl& i = *impl_;
   bool knows = i.known;
-  a(knows);
-  if (!knows) return;
-  if (a.reads()) i.learn(w);
+  std::size_t bodies = i.choices.size();
+  a(knows, bodies);
+  if (a.reads()) {
+    i.makeRoom(bodies);
+    if (knows) i.learn(w);
+  }
   a(i.contacts, sleeping, i.fresh, i.substeps, i.sweeps, i.asked, i.askedSweeps, i.law, i.steps,
-    i.meanSpins, i.responding, i.finer);
+    i.meanSpins);
   for (StepChoice& choice : i.choices) a(choice);
+  if (!knows) return;  // what is not known is made anew
+  a(i.responding, i.finer);
   for (Articulation& articulation : i.articulations) a(articulation);
   for (Impl::Accurate& island : i.accurate) a(island.motion);
   if (!a.reads()) return;

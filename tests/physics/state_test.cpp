@@ -49,6 +49,39 @@ TEST(SetState, FindsTheContactsAtThesePosesBeforeAnyStep) {
   EXPECT_NEAR(world.largestOverlap(), 0.2, 1e-12);
 }
 
+void expectGoesOn(World& world, World& restored) {
+  restored.restore(world.saved());
+  EXPECT_EQ(restored.contacts().size(), world.contacts().size());
+  for (int k = 0; k < 3; ++k) {
+    world.step();
+    restored.step();
+    EXPECT_EQ(stateHash(restored), stateHash(world)) << "step " << k;
+  }
+}
+
+TEST(SavedWorld, GoesOnWithWhatTheNextStepIsGiven) {
+  World world = makeBalls(), restored = makeBalls();
+  for (int k = 0; k < 4; ++k) world.step();
+  world.applyForce(2, Vec3(50, 0, 10), Vec3(0, 0, 3));
+  world.setVelocity(1, {Vec3(0, 1, 0), Vec3(2, 0, 0)});
+  expectGoesOn(world, restored);
+}
+
+TEST(SavedWorld, GoesOnFromAStateThatWasSet) {
+  World world = makeBalls(), restored = makeBalls();
+  for (int k = 0; k < 4; ++k) world.step();
+  const State state = stateOf(makeBalls());
+  ASSERT_TRUE(world.setState(state.pose, state.velocity));
+  expectGoesOn(world, restored);
+}
+
+TEST(SavedWorld, OfOtherBodiesIsRefused) {
+  World world = makeBalls(), other = makeBalls();
+  other.add(BodyDef{});
+  EXPECT_THROW(other.restore(world.saved()), std::invalid_argument);
+  EXPECT_THROW(other.restore(""), std::invalid_argument);
+}
+
 TEST(SetState, MeasuresAsTheWorldThatWasSteppedThere) {
   World stepped = makeBalls(), told = makeBalls();
   for (int k = 0; k < 20; ++k) stepped.step();
