@@ -19,7 +19,7 @@ std::string programHash() {
   return hashText(std::string(std::istreambuf_iterator<char>(program), {}));
 }
 
-std::string hashText(const std::string& bytes) {
+std::string hashText(std::string_view bytes) {
   return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 

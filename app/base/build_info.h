@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace app {
 
@@ -10,6 +11,6 @@ std::string compiler();
 std::string compileFlags();
 std::string programHash();  // of the running program's bytes; 16 hex digits
 
-std::string hashText(const std::string& bytes);  // 64-bit xxhash, 16 hex digits
+std::string hashText(std::string_view bytes);  // 64-bit xxhash, 16 hex digits
 
 }  // namespace app

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/base/build_info.h"
 #include "app/base/output_file.h"
 #include "scenes/read/file_text.h"
@@ -12,15 +14,15 @@ namespace app {
 namespace {
 
 const std::string kMagic = "dbd checkpoint 1\n";
-constexpr double kShare = 0.02;  // of a run's time, at the most
-constexpr double kFirst = 0.1;   // s before the first: what one takes is not known yet
+constexpr double kShare = 0.02;   // of a run's time
+constexpr double kUsual = 0.002;  // s that one takes, as long as none has been written
 
 // Of bytes that end in their own hash; none: they do not.
 std::optional<std::string_view> withoutHash(std::string_view bytes) {
   const std::size_t hash = hashText("").size();
   if (bytes.size() < kMagic.size() + hash || !bytes.starts_with(kMagic)) return std::nullopt;
   const std::string_view state = bytes.substr(0, bytes.size() - hash);
-  if (hashText(std::string(state)) != bytes.substr(state.size())) return std::nullopt;
+  if (hashText(state) != bytes.substr(state.size())) return std::nullopt;
   return state.substr(kMagic.size());
 }
 
@@ -35,7 +37,7 @@ RunRecord recordOf(const Json& run) {
 }  // namespace
 
 Checkpoint::Checkpoint(const std::filesystem::path& motion, Json run)
-    : motion_(motion), file_(motion.string() + ".state"), run_(std::move(run)), wait_(kFirst) {}
+    : motion_(motion), file_(motion.string() + ".state"), run_(std::move(run)), cost_(kUsual) {}
 
 Json Checkpoint::runOf(const RunRecord& record, int frames, int keeps) {
   return {{"program", record.program},
@@ -67,9 +69,11 @@ void Checkpoint::refuse(const Json& was) const {
 }
 
 void Checkpoint::pass(const Members& members) {
-  if (sinceLast_.seconds() >= wait_) write(members);
+  if (sinceLast_.seconds() >= cost_ / kShare) write(members);
 }
 
+// What one takes is taken to be no more than twice what the last did: a single one may have had to
+// wait for the processor.
 void Checkpoint::write(const Members& members) {
   const Stopwatch watch;
   std::string& bytes = bytes_;
@@ -82,7 +86,7 @@ void Checkpoint::write(const Members& members) {
   writeFile(file_, bytes);
   const double took = watch.seconds();
   seconds_ += took;
-  wait_ = took / kShare;
+  cost_ = std::min(took, 2 * cost_);
   sinceLast_ = Stopwatch();
 }
 

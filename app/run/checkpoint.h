@@ -40,7 +40,7 @@ class Checkpoint {
   Json run_;
   std::string bytes_;
   Stopwatch sinceLast_;
-  double wait_, seconds_ = 0;
+  double cost_, seconds_ = 0;
 };
 
 }  // namespace app
