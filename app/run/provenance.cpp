@@ -61,7 +61,9 @@ render::PngNotes notesOf(const RunRecord& record, int frame, const std::string& 
                  {"Frame", fmt::format("{}", frame)},
                  {"Time", fmt::format("{:.6g} s", static_cast<double>(frame) / fps)},
                  {"Command", command}};
-  notes.printedWidth = record.picture.value("print_width", 0.0) / 100;
+  if (record.picture.is_object()) {
+    notes.printedWidth = record.picture.value("print_width", 0.0) / 100;
+  }
   return notes;
 }
 
