@@ -21,6 +21,7 @@ constexpr size_t kMostLettered = 2;  // joints and contacts that still get lette
 // Pixels at 720 lines before `ink`.
 constexpr float kStroke = 2.6f, kThin = 1.8f, kPoint = 9, kLetters = 25;
 constexpr double kAxisLength = 0.62, kArcRadius = 0.4, kNormalLength = 0.3;  // of the scene's size
+constexpr float kConeOpacity = 0.22f;
 
 class Sketch {
  public:
@@ -167,6 +168,7 @@ class Sketch {
   void drawAngle(const physics::JointReport& joint, const Vec3& origin) {
     const Vec3 tipI = origin + kAxisLength * scale_ * joint.axis;
     const Vec3 tipJ = origin + kAxisLength * scale_ * joint.axisB;
+    if (joint.cone > 0) drawCone(origin, joint.axis, joint.cone, inkOf(joint.a));
     line(origin, tipI, inkOf(joint.a), kStroke, true);
     line(origin, tipJ, inkOf(joint.b), kStroke, true);
     const Vec3 w = joint.axis.cross(joint.axisB);
@@ -184,6 +186,28 @@ class Sketch {
     line(origin, tip, kAngle, kThin, true);
     letterAway(tip, origin, "*w*", kAngle);
     dot(origin, kInk);
+  }
+
+  // Of the directions at this angle from the axis, as long as the axes are drawn, and its rim.
+  void drawCone(const Vec3& apex, const Vec3& axis, double angle, const Color& ink) {
+    constexpr int kPieces = 64;
+    const Vec3 aside = axis.unitOrthogonal();
+    const auto rim = [&](int i) -> Vec3 {
+      const Eigen::AngleAxisd round(2 * M_PI * i / kPieces, axis);
+      const Vec3 along = std::cos(angle) * axis + std::sin(angle) * (round * aside);
+      return apex + kAxisLength * scale_ * along;
+    };
+    render::Surface cone;
+    for (int i = 0; i < kPieces; ++i) {
+      const auto first = static_cast<std::uint32_t>(cone.positions.size());
+      for (const Vec3& corner : {apex, rim(i), rim(i + 1)}) {
+        cone.positions.push_back(corner.cast<float>());
+      }
+      cone.indices.insert(cone.indices.end(), {first, first + 1, first + 2});
+      line(rim(i), rim(i + 1), ink, kThin, false);
+    }
+    cone.color = cone.backColor = {ink.x(), ink.y(), ink.z(), kConeOpacity};
+    picture_.surfaces.push_back(std::move(cone));
   }
 
   // From n_i to n_j about w, with a head at its end.

@@ -82,6 +82,7 @@ struct JointReport {
   Vec3 axis;                  // world, zero where the kind has none
   double error;               // m or rad
   Vec3 axisB = Vec3::Zero();  // world: what `axis` is held against, in body b
+  double cone = 0;            // rad: how far the axes may stand apart
 };
 
 // A tetrahedron whose volume is kept, (140),(141).

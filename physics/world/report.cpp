@@ -22,6 +22,7 @@ JointReport reportOf(const C& item, const WorldState& w) {
   if constexpr (requires { item.axes; }) joint.axis = a.q * item.axes[0];
   if constexpr (requires { item.axes; }) joint.axisB = b.q * item.axes[1];
   if constexpr (requires { item.frameJ; }) joint.axisB = b.q * item.frameJ.col(2);
+  if constexpr (std::is_same_v<C, ConeLimit>) joint.cone = item.angle;
   if constexpr (canStand<C>()) joint.error = sizeOfError(item, w.bodies, w.substepLength());
   return joint;
 }

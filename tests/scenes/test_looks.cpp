@@ -147,6 +147,23 @@ TEST(View, APendulumIsSeenWithItsRodAndWhatItHangsFrom) {
   EXPECT_EQ(near.instances.size(), 1u);
 }
 
+TEST(View, VectorsShowTheConeOfALimit) {
+  ViewOptions options;
+  options.overlays.vectors = true;
+  const render::Picture picture =
+      pictureOf(ball("a") + ball("b") +
+                    "[[cone_limit]]\nbodies = [\"a\", \"b\"]\naxis = [0, 1, 0]\ndegrees = 30\n",
+                options);
+  ASSERT_EQ(picture.surfaces.size(), 1u);
+  const render::Surface& cone = picture.surfaces[0];
+  const render::Vec3f apex = cone.positions[0];
+  for (std::size_t i = 0; i < cone.positions.size(); ++i) {
+    if (i % 3 == 0) continue;
+    const render::Vec3f along = cone.positions[i] - apex;
+    EXPECT_NEAR(along.y() / along.norm(), std::sqrt(0.75), 1e-5);
+  }
+}
+
 TEST(View, WhatNeverTurnsHasNoMarks) {
   EXPECT_FALSE(pictureOf(ball("a") + "fixed = true\n").instances[0].marked);
 }
