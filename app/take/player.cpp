@@ -11,6 +11,7 @@
 #include "app/commands/exit_code.h"
 #include "app/take/numbers.h"
 #include "render/geometry.h"
+#include "render/marked_text.h"
 #include "scenes/read/file_text.h"
 
 namespace app {
@@ -129,6 +130,20 @@ void addLayers(const Take& take, Json& head, TakeNumbers& packed) {
   }
 }
 
+// Each with its text as runs of one size and slant.
+void addLabels(const Take& take, Json& head, TakeNumbers& packed) {
+  head["labels"] = Json::array();
+  for (const render::Label& label : take.labels) {
+    Json runs = Json::array();
+    for (const render::TextRun& run : render::textRuns(label.text)) {
+      runs.push_back({{"words", run.words}, {"level", run.level}, {"slanted", run.slanted}});
+    }
+    head["labels"].push_back(
+        {{"runs", runs}, {"size", label.size}, {"offset", {label.offset.x(), label.offset.y()}}});
+  }
+  packed.addTracks(take.labelPlaces);
+}
+
 Json describeStage(const render::Picture& stage) {
   return {{"ground",
            {{"visible", stage.ground.visible},
@@ -175,11 +190,12 @@ std::string playerPage(const Take& take, const scenes::Scene& scene,
   Json head = describeStage(take.stage);
   head["fps"] = take.fps;
   head["frames"] = take.frames;
+  head["speed"] = scene.film.speed;
   head["metrics"] = take.metricNames;
   head["missing"] = take.missing;
   head["description"] = scene.description;
   head["about"] = aboutText(take, scene);
-  head["shown"] = {"shadows"};
+  head["shown"] = {"labels", "shadows"};
   for (const auto& [name, isShown] : takeLayers()) {
     if (shown.*isShown) head["shown"].push_back(name);
   }
@@ -190,6 +206,7 @@ std::string playerPage(const Take& take, const scenes::Scene& scene,
   addSurfaces(take, head, packed);
   packed.addTracks(take.positions);
   packed.addTracks(take.cameras);
+  addLabels(take, head, packed);
   packed.addTracks(take.metrics);
   addLayers(take, head, packed);
   const std::string title = scene.title.empty() ? scene.name : scene.title;

@@ -9,6 +9,7 @@
 #include "scenes/moment.h"
 #include "scenes/view/camera.h"
 #include "scenes/view/overlays.h"
+#include "scenes/view/stage.h"
 
 namespace app {
 
@@ -49,20 +50,21 @@ class TakeRecorder {
       : simulation_(simulation), motion_(motion), options_(viewOptions(simulation.scene())) {}
 
   Take record() {
-    take_.fps = simulation_.scene().fps;
-    take_.frames = motion_.frames();
+    const int every = simulation_.scene().film.every;
+    take_.fps = simulation_.scene().fps / every;
     scenes::MotionBounds bounds;
-    for (int frame = 0; frame < take_.frames; ++frame) {
+    for (int frame = 0; frame < motion_.frames(); ++frame) {
       bounds.include(simulation_, *options_.camera, motion_.moment(frame).poses);
     }
     for (const auto& [name, shown] : kLayers) take_.layers.push_back({name, {}, {}});
-    for (int frame = 0; frame < take_.frames; ++frame) {
+    for (int frame = 0; frame < motion_.frames(); frame += every) {
       const scenes::Moment moment = motion_.moment(frame);
       if (!simulation_.show(moment)) {
         throw CheckFailed(fmt::format("frame {} is not finite", frame));
       }
       add(scenes::view(simulation_, bounds, options_, {}), moment);
     }
+    take_.frames = static_cast<int>(take_.poses.size());
     dropLayers();
     return std::move(take_);
   }
@@ -73,12 +75,17 @@ class TakeRecorder {
     addPoses(picture.instances);
     addPositions(picture.surfaces);
     addCamera(picture.camera);
+    addLabels();
     const std::vector<double> numbers = numbersOf(moment).metrics;
     take_.metrics.emplace_back(numbers.begin(), numbers.end());
     for (std::size_t i = 0; i < std::size(kLayers); ++i) addLayer(i, picture);
   }
 
   void begin(const render::Picture& picture, const scenes::Moment& moment) {
+    take_.labels = scenes::labels(simulation_);
+    for (std::size_t i = 0; i < take_.labels.size(); ++i) {
+      take_.labels[i].text = simulation_.scene().labels[i].text;
+    }
     take_.stage.camera = picture.camera;
     take_.stage.light = picture.light;
     take_.stage.ground = picture.ground;
@@ -136,14 +143,24 @@ class TakeRecorder {
   }
 
   void addCamera(render::Camera camera) {
-    const scenes::Scene& scene = simulation_.scene();
-    const double time = static_cast<double>(simulation_.frame()) / scene.fps;
-    if (!scene.camera.keys.empty()) camera = scenes::keyCamera(scene.camera.keys, time);
+    const scenes::CameraDef& def = simulation_.scene().camera;
+    if (!def.keys.empty()) camera = scenes::keyCamera(simulation_, def);
     std::vector<float> row;
     append(row, camera.eye);
     append(row, camera.target);
     row.push_back(camera.fieldOfViewDegrees);
+    const auto& poses = simulation_.world().bodies().pose;
+    append(row, scenes::followed(simulation_, def, poses).cast<float>());
     take_.cameras.push_back(std::move(row));
+  }
+
+  void addLabels() {
+    std::vector<float> row;
+    for (const render::Label& label : scenes::labels(simulation_)) {
+      append(row, label.at);
+      row.push_back(label.text.empty() ? 0.0f : 1.0f);
+    }
+    take_.labelPlaces.push_back(std::move(row));
   }
 
   void addLayer(std::size_t index, const render::Picture& scenery) {
@@ -200,6 +217,7 @@ void requireRoom(const std::string& file, const scenes::Simulation& start, int f
   const render::Picture picture = scenes::view(start, bounds, viewOptions(start.scene()), {});
   std::size_t numbers = picture.instances.size() * Take::kPart;
   for (const render::Surface& surface : picture.surfaces) numbers += 3 * surface.positions.size();
+  frames = (frames + start.scene().film.every - 1) / start.scene().film.every;
   if (static_cast<double>(numbers) * frames <= kMostNumbers) return;
   throw scenes::InputError(fmt::format(
       "{}: {} frames of {} numbers are more than the {:g} that a file to take along holds; "

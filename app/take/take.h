@@ -42,15 +42,19 @@ struct TakeLayer {  // what one word of --overlays shows
 };
 
 struct Take {
-  static constexpr std::size_t kPart = 8;    // x y z [m], qx qy qz qw, size.y; 0: not in this frame
-  static constexpr std::size_t kCamera = 7;  // eye, target [m], field of view [degrees]
+  static constexpr std::size_t kPart = 8;  // x y z [m], qx qy qz qw, size.y; 0: not in this frame
+  // eye, target [m], field of view [degrees], the middle of what is followed [m]
+  static constexpr std::size_t kCamera = 10;
+  static constexpr std::size_t kLabel = 4;  // x y z [m], 1 where it is shown
 
-  render::Picture stage;  // ground, light, focus and camera of the first frame
-  int fps = 60, frames = 0;
+  render::Picture stage;     // ground, light, focus and camera of the first frame
+  int fps = 60, frames = 0;  // those of the film, of a second and of all of the motion
   std::vector<TakePart> parts;
   std::vector<TakeSurface> surfaces;
-  // By frame: rows of kPart numbers a part, of 3 a position of a surface, of kCamera.
-  std::vector<std::vector<float>> poses, positions, cameras;
+  std::vector<render::Label> labels;
+  // By frame: rows of kPart numbers a part, of 3 a position of a surface, of kCamera, of kLabel a
+  // label.
+  std::vector<std::vector<float>> poses, positions, cameras, labelPlaces;
   std::vector<std::string> metricNames;
   std::vector<std::vector<float>> metrics;
   std::vector<TakeLayer> layers;     // none is empty
@@ -64,7 +68,7 @@ std::span<const std::pair<const char*, bool scenes::Overlays::*>> takeLayers();
 // than a browser opens.
 void requireRoom(const std::string& file, const scenes::Simulation& start, int frames);
 
-// `motion` must fit `simulation`, which is only asked to show.
+// The frames that a film would show. `motion` must fit `simulation`, which is only asked to show.
 Take recordTake(scenes::Simulation& simulation, const Motion& motion);
 
 }  // namespace app

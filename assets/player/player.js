@@ -2,7 +2,7 @@
 // What stands behind the page's # begins so: #t=1.5&play=0&speed=0.25&show=contacts,names
 
 const kTrailSeconds = 1.5;
-const kViews = [['masses', 'centres of mass'], ['names', 'names'], ['trails', 'trails'], ['wire', 'edges only'],
+const kViews = [['labels', 'labels'], ['masses', 'centres of mass'], ['names', 'names'], ['trails', 'trails'], ['wire', 'edges only'],
                 ['clear', 'see through'], ['shadows', 'shadows']];
 
 class Player {
@@ -16,7 +16,7 @@ class Player {
     this.scene = new Scene(this.canvas, take);
     this.view = new View(this.canvas, take, () => { this.isStale = true; });
     this.told = new Told(take, (frame) => this.goTo(frame));
-    this.names = new Names(take);
+    this.words = new Words(take);
     this.moving = take.parts.map((_, p) => p).filter(
         (p) => take.parts[p].name && [0, 1, 2, 3, 4, 5].some((k) => take.poses.step[p * kPart + k] > 0));
     this.readAddress();
@@ -29,14 +29,24 @@ class Player {
     const number = (word, other) => asked.has(word) && +asked.get(word) >= 0 ? +asked.get(word) : other;
     this.frame = Math.min(number('t', 0) * this.take.fps, this.take.frames - 1);
     this.isPlaying = asked.get('play') !== '0' && this.take.frames > 1;
-    const speed = number('speed', 1);
-    for (const option of element('speed').options) if (+option.value === speed) option.selected = true;
+    this.chooseSpeed(number('speed', this.take.speed));
     if (asked.has('show')) this.shown = new Set(asked.get('show').split(','));
+  }
+
+  chooseSpeed(speed) {
+    const list = element('speed'), all = [...list.options];
+    let chosen = all.find((option) => +option.value === speed);
+    if (!chosen) {
+      chosen = new Option(`${short(speed)}×`, speed);
+      list.add(chosen, all.find((option) => +option.value > speed));
+    }
+    chosen.selected = true;
   }
 
   addChoices() {
     const layers = this.take.layers.map(({name}) => [name, name]);
     for (const [word, text] of [...layers, ...kViews]) {
+      if (word === 'labels' && this.take.labels.length === 0) continue;
       const label = say(element('show'), 'label', ''), box = document.createElement('input');
       box.type = 'checkbox';
       box.checked = this.shown.has(word);
@@ -134,7 +144,9 @@ class Player {
     const look = {wire: this.shown.has('wire'), clear: this.shown.has('clear'),
                   shadows: this.shown.has('shadows')};
     this.scene.draw(this.frame, camera, look);
-    this.names.draw(take.poses.at(this.frame), camera, this.shown.has('names'));
+    this.words.clear();
+    if (this.shown.has('labels')) this.words.drawLabels(this.frame, camera);
+    if (this.shown.has('names')) this.words.drawNames(this.frame, camera);
     this.told.show(this.frame);
     this.tellPicked();
     element('frame').value = this.frame;

@@ -34,30 +34,30 @@ class Scene {
   }
 
   // Orthographic, along the light, around the sphere in focus.
-  toShadow() {
-    const focus = this.take.focus, along = unit(this.take.light);
+  toShadow(center) {
+    const {radius} = this.take.focus, along = unit(this.take.light);
     const side = unit(cross(along, Math.abs(along[1]) > 0.9999 ? [1, 0, 0] : [0, 1, 0]));
     const rows = [side, cross(side, along), along], m = new Float32Array(16);
     rows.forEach((row, r) => {
-      for (let c = 0; c < 3; ++c) m[4 * c + r] = row[c] / (2.1 * focus.radius);
-      m[12 + r] = 0.5 - dot(row, focus.center) / (2.1 * focus.radius);
+      for (let c = 0; c < 3; ++c) m[4 * c + r] = row[c] / (2.1 * radius);
+      m[12 + r] = 0.5 - dot(row, center) / (2.1 * radius);
     });
     m[15] = 1;
     return m;
   }
 
   values(camera, look) {
-    const {ground, focus, light, shadows} = this.take, height = this.canvas.height;
-    const flat = Math.hypot(focus.center[0] - camera.eye[0], focus.center[2] - camera.eye[2]);
-    const begin = 1.5 * focus.radius + 0.5 * flat;
+    const {ground, light, shadows} = this.take, height = this.canvas.height;
+    const {focus, eye} = camera, {radius} = this.take.focus;
+    const begin = 1.5 * radius + 0.5 * Math.hypot(focus[0] - eye[0], focus[2] - eye[2]);
     return {
-      toClip: camera.toClip, toShadow: this.toShadow(), eye: camera.eye,
+      toClip: camera.toClip, toShadow: this.toShadow(focus), eye,
       towardLight: unit(light).map((x) => -x), groundHeight: ground.height,
-      edgeWidth: Math.max(0.9 * height / 720, 0.6), radius: focus.radius,
+      edgeWidth: Math.max(0.9 * height / 720, 0.6), radius,
       shadowOn: shadows && look.shadows ? 1 : 0, shadowStep: 1.1 / kShadowSize,
-      shadowOffset: 2.5 * 2.1 * focus.radius / kShadowSize, shadowMap: 0,
+      shadowOffset: 2.5 * 2.1 * radius / kShadowSize, shadowMap: 0,
       opacity: look.clear ? 0.3 : 1, spacing: ground.spacing, paint: ground.color.slice(0, 3),
-      paper: [1, 1, 1], fade: [focus.center[0], focus.center[2], begin, 3.2 * begin],
+      paper: [1, 1, 1], fade: [focus[0], focus[2], begin, 3.2 * begin],
     };
   }
 

@@ -121,7 +121,7 @@ async function inflated(text) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-const kPart = 8, kPartLook = 9, kVertex = 9, kCamera = 7;
+const kPart = 8, kPartLook = 9, kVertex = 9, kCamera = 10, kLabel = 4;
 
 function readParts(reader, take) {
   const rows = reader.floats(take.names.length * kPartLook);
@@ -150,6 +150,7 @@ async function openTake() {
   }
   take.positions = new Tracks(reader, columns, take.frames);
   take.cameras = new Tracks(reader, kCamera, take.frames);
+  take.labelPlaces = new Tracks(reader, take.labels.length * kLabel, take.frames);
   take.measured = new Tracks(reader, take.metrics.length, take.frames);
   take.layers = take.layers.map((head) => new Layer(reader, head, take.frames));
   return take;

@@ -91,43 +91,80 @@ class Told {
   }
 }
 
-// The bodies' names beside their centres, nearest first, none over another.
-class Names {
+// Where a place of the world is seen on a canvas; null: nowhere.
+function seen(at, camera, {width, height}) {
+  const m = camera.toClip;
+  const [x, y, w] = [0, 1, 3].map((r) => m[r] * at[0] + m[4 + r] * at[1] + m[8 + r] * at[2] + m[12 + r]);
+  if (w <= 0 || Math.abs(x) > w || Math.abs(y) > w) return null;
+  return {depth: w, x: (0.5 + 0.5 * x / w) * width, y: (0.5 - 0.5 * y / w) * height};
+}
+
+// Over the picture: the scene's labels, and the bodies' names beside their centres.
+class Words {
   constructor(take) {
     this.take = take;
     this.canvas = element('names');
+    this.pen = this.canvas.getContext('2d');
   }
 
-  draw(row, camera, isShown) {
-    const {canvas} = this, scale = window.devicePixelRatio, pen = canvas.getContext('2d');
-    const width = canvas.width = canvas.clientWidth * scale;
-    const height = canvas.height = canvas.clientHeight * scale;
-    if (!isShown) return;
+  clear() {
+    const {canvas, pen} = this, scale = window.devicePixelRatio;
+    canvas.width = canvas.clientWidth * scale;
+    canvas.height = canvas.clientHeight * scale;
+    pen.lineJoin = 'round';
+    pen.strokeStyle = 'rgba(255, 255, 255, .85)';
+    pen.fillStyle = '#1a1a1a';
+  }
+
+  write(words, x, y) {
+    this.pen.strokeText(words, x, y);
+    this.pen.fillText(words, x, y);
+  }
+
+  // As render/overlay.cpp and render/canvas.cpp set them.
+  drawLabels(frame, camera) {
+    const {take, canvas, pen} = this, scale = canvas.height / 720;
+    const now = take.labelPlaces.at(frame);
+    take.labels.forEach((label, i) => {
+      const isShown = take.labelPlaces.one(i * kLabel + 3, Math.floor(frame)) > 0.5;
+      const at = isShown && seen(now.subarray(i * kLabel, i * kLabel + 3), camera, canvas);
+      if (!at) return;
+      let x = at.x + scale * label.offset[0];
+      const y = at.y + scale * label.offset[1], line = scale * label.size;
+      for (const {words, level, slanted} of label.runs) {
+        const size = 0.86 * line * (level === 0 ? 1 : 0.72);  // of a line of DejaVu Sans
+        pen.font = `${slanted ? 'italic ' : ''}${size}px "DejaVu Sans", system-ui, sans-serif`;
+        pen.lineWidth = 0.2 * size;
+        pen.textBaseline = 'alphabetic';
+        this.write(words, x, y - line * (level > 0 ? 0.3 : 0.16 * level));
+        x += pen.measureText(words).width;
+      }
+    });
+  }
+
+  // The nearest first, none over another.
+  drawNames(frame, camera) {
+    const {pen} = this, scale = window.devicePixelRatio;
     pen.font = `${12 * scale}px system-ui, sans-serif`;
     pen.textBaseline = 'middle';
     pen.lineWidth = 3 * scale;
-    pen.strokeStyle = 'rgba(255, 255, 255, .85)';
     const taken = [];
-    for (const {name, x, y} of this.places(row, camera, width, height)) {
+    for (const {name, x, y} of this.places(frame, camera)) {
       const box = [x, y - 8 * scale, x + pen.measureText(name).width + 4 * scale, y + 8 * scale];
       if (taken.some((b) => b[0] < box[2] && box[0] < b[2] && b[1] < box[3] && box[1] < b[3])) continue;
       taken.push(box);
-      pen.strokeText(name, x, y);
-      pen.fillText(name, x, y);
+      this.write(name, x, y);
       if (taken.length === 300) return;
     }
   }
 
-  places(row, camera, width, height) {
-    const m = camera.toClip, found = [];
+  places(frame, camera) {
+    const row = this.take.poses.at(frame), found = [];
     this.take.parts.forEach((part, p) => {
       const at = p * kPart;
       if (!part.name || row[at + 7] === 0) return;
-      const c = [0, 1, 3].map((r) => m[r] * row[at] + m[4 + r] * row[at + 1] + m[8 + r] * row[at + 2] +
-                                     m[12 + r]);
-      if (c[2] <= 0 || Math.abs(c[0]) > c[2] || Math.abs(c[1]) > c[2]) return;
-      found.push({name: part.name, depth: c[2], x: (0.5 + 0.5 * c[0] / c[2]) * width,
-                  y: (0.5 - 0.5 * c[1] / c[2]) * height});
+      const place = seen(row.subarray(at, at + 3), camera, this.canvas);
+      if (place) found.push({name: part.name, ...place});
     });
     return found.sort((a, b) => a.depth - b.depth);
   }

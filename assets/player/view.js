@@ -38,16 +38,24 @@ class View {
     this.eye = [0, 0, 1];
     this.target = [0, 0, 0];
     this.fov = 35;
+    this.focus = take.focus.center;
+    this.followed = this.followedAt(0);
     this.pointers = new Map();
     this.listen();
   }
 
-  // The scene's camera at a frame, where no hand has taken it; or along with what is followed.
-  follow(frame, moved) {
-    if (moved) {
+  // The middle of what the scene's camera follows.
+  followedAt(frame) { return Array.from(this.take.cameras.at(frame).subarray(7, 10)); }
+
+  // The scene's camera at a frame; where a hand has taken it, it goes along with what is followed.
+  follow(frame) {
+    const now = this.followedAt(frame), moved = subtract(now, this.followed);
+    this.followed = now;
+    this.focus = addScaled(this.focus, moved, 1);
+    if (this.isFree) {
       this.target = addScaled(this.target, moved, 1);
       this.eye = addScaled(this.eye, moved, 1);
-    } else if (!this.isFree) {
+    } else {
       const row = this.take.cameras.at(frame);
       this.eye = Array.from(row.subarray(0, 3));
       this.target = Array.from(row.subarray(3, 6));
@@ -60,11 +68,11 @@ class View {
     const aspect = width / height, wide = 16 / 9;
     const slope = Math.tan(this.fov * Math.PI / 360) * Math.max(1, wide / aspect);
     const ahead = unit(subtract(this.target, this.eye));
-    const focus = this.take.focus, depth = dot(ahead, subtract(focus.center, this.eye));
-    const far = Math.max(depth + 30 * focus.radius, norm(subtract(this.target, this.eye)) * 3);
+    const depth = dot(ahead, subtract(this.focus, this.eye));
+    const far = Math.max(depth + 30 * this.take.focus.radius, norm(subtract(this.target, this.eye)) * 3);
     const near = Math.max(0.02 * norm(subtract(this.target, this.eye)), far * 5e-5);
     const fov = Math.atan(slope) * 360 / Math.PI;
-    return {eye: this.eye, ahead, fov, toClip: clipMatrix(this.eye, ahead, slope, aspect, near, far)};
+    return {eye: this.eye, ahead, fov, focus: this.focus, toClip: clipMatrix(this.eye, ahead, slope, aspect, near, far)};
   }
 
   reset() {

@@ -146,21 +146,14 @@ void drawBodies(const Simulation& simulation, const MotionBounds& stage, render:
 
 void setCamera(const Simulation& simulation, const CameraDef& def, const MotionBounds& stage,
                double aspect, render::Picture& picture) {
-  const bool follows = !def.follow.any.empty();
   if (def.keys.empty()) {
     const double ground = picture.ground.visible ? picture.ground.height : -1e9;
     picture.camera = fitCamera(def, stage, aspect, ground);
     picture.focusCenter = centreOf(stage).cast<float>();
     picture.focusRadius = static_cast<float>(radiusOf(stage));
-    if (!follows) return;
+    if (def.follow.any.empty()) return;
   } else {
-    const double time = static_cast<double>(simulation.frame()) / simulation.scene().fps;
-    picture.camera = keyCamera(def.keys, time);
-    if (follows) {
-      const Vec3f now = followed(simulation, def, simulation.world().bodies().pose).cast<float>();
-      picture.camera.eye += now;
-      picture.camera.target += now;
-    }
+    picture.camera = keyCamera(simulation, def);
   }
   const float distance = (picture.camera.eye - picture.camera.target).norm();
   const double slope = std::tan(picture.camera.fieldOfViewDegrees * M_PI / 360);
@@ -181,23 +174,44 @@ void setLooks(const Scene& scene, render::Picture& picture) {
   if (scene.background) picture.background = *scene.background;
 }
 
+double timeOf(const Simulation& simulation) {
+  return static_cast<double>(simulation.frame()) / simulation.scene().fps;
+}
+
 void drawLabels(const Simulation& simulation, double ink, render::Picture& picture) {
-  const double time = static_cast<double>(simulation.frame()) / simulation.scene().fps;
-  constexpr double kSlack = 1e-9;  // s
-  for (const LabelDef& def : simulation.scene().labels) {
-    if (time < def.from.value_or(time) - kSlack || time > def.to.value_or(time) + kSlack) continue;
-    render::Label label;
-    const physics::Bodies& bodies = simulation.world().bodies();
-    const BodyId body = def.body.empty() ? physics::kWorldBody : simulation.findBody(def.body);
-    if (body < 0) continue;
-    label.at = (bodies.pose[body].x + def.at).cast<float>();
-    label.text = def.text;
-    label.size = static_cast<float>(ink * def.size);
+  for (render::Label& label : labels(simulation)) {
+    if (label.text.empty()) continue;
+    label.size *= static_cast<float>(ink);
     picture.labels.push_back(std::move(label));
   }
 }
 
 }  // namespace
+
+render::Camera keyCamera(const Simulation& simulation, const CameraDef& def) {
+  render::Camera camera = keyCamera(def.keys, timeOf(simulation));
+  const Vec3f now = followed(simulation, def, simulation.world().bodies().pose).cast<float>();
+  camera.eye += now;
+  camera.target += now;
+  return camera;
+}
+
+std::vector<render::Label> labels(const Simulation& simulation) {
+  constexpr double kSlack = 1e-9;  // s
+  const physics::Bodies& bodies = simulation.world().bodies();
+  const double time = timeOf(simulation);
+  std::vector<render::Label> all;
+  for (const LabelDef& def : simulation.scene().labels) {
+    render::Label& label = all.emplace_back();
+    label.size = static_cast<float>(def.size);
+    const BodyId body = def.body.empty() ? physics::kWorldBody : simulation.findBody(def.body);
+    if (body < 0) continue;
+    label.at = (bodies.pose[body].x + def.at).cast<float>();
+    const bool late = time > def.to.value_or(time) + kSlack;
+    if (!late && time >= def.from.value_or(time) - kSlack) label.text = def.text;
+  }
+  return all;
+}
 
 std::vector<BodyId> drawnBodies(const Simulation& simulation) {
   const physics::Bodies& bodies = simulation.world().bodies();

@@ -39,6 +39,13 @@ struct ViewOptions {
 // The body of each instance that a picture begins with; rods and tubes come after them.
 std::vector<physics::BodyId> drawnBodies(const Simulation& simulation);
 
+// The camera of `def`, which has keys, at the present frame, moved along with what it follows.
+render::Camera keyCamera(const Simulation& simulation, const CameraDef& def);
+
+// One for each [[label]] of the scene, where it stands at the present frame; without its text at
+// times when it is not shown.
+std::vector<render::Label> labels(const Simulation& simulation);
+
 // The picture of the simulation's present frame. `history`: metrics of frames 0..now, for the HUD.
 render::Picture view(const Simulation& simulation, const MotionBounds& bounds,
                      const ViewOptions& options, const std::vector<FrameMetrics>& history);

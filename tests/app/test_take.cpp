@@ -163,6 +163,57 @@ TEST_F(Take, APlayerShowsAnotherPictureAtAnotherTime) {
   EXPECT_GT(differing(later, contacts), 500);
 }
 
+// A ball that flies, followed by the camera, with a label for a part of the time, in slow motion.
+constexpr const char* kFollowed = R"(title = "Followed"
+duration = 0.5
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.1 } }
+position = [0, 1, 0]
+velocity = [4, 0, 0]
+[camera]
+follow = "ball"
+[[label]]
+text = "*v* = 4 m/s"
+body = "ball"
+to = 0.25
+[film]
+speed = 0.3
+fps = 15
+)";
+
+TEST_F(Take, APlayerHasTheFilmsFramesItsSpeedAndItsLabels) {
+  writeText(folder / "followed.toml", kFollowed);
+  const Outcome outcome = run("simulate followed.toml --player p.html --set film.shutter=180");
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  const std::string page = readBytes(folder / "p.html");
+  EXPECT_NE(page.find("\"fps\":50,\"frames\":26,\"speed\":0.3,"), std::string::npos);
+  EXPECT_NE(page.find("{\"words\":\"v\",\"level\":0,\"slanted\":true}"), std::string::npos);
+}
+
+TEST_F(Take, APlayersCameraGoesAlongAndItsLabelsAreThereWhileTheyAreToBeSeen) {
+  if (!isThere("chromium")) GTEST_SKIP() << "no chromium to open it with";
+  writeText(folder / "followed.toml", kFollowed);
+  ASSERT_EQ(run("simulate followed.toml --player p.html").code, 0);
+  std::string page = readBytes(folder / "p.html");
+  const std::string asking =
+      "<script>setTimeout(() => { const p = window.player, told = document.body.dataset;"
+      "const words = []; p.words.write = (text) => words.push(text);"
+      "p.goTo(0); p.draw(); const start = p.view.target[0], focus = p.view.focus[0];"
+      "p.view.turn(0.3, 0); p.goTo(25); p.draw();"
+      "told.moved = p.view.target[0] - start; told.shadows = p.view.focus[0] - focus;"
+      "told.words = words.join(''); told.speed = document.getElementById('speed').value;"
+      "}, 1500)</script></body>";
+  page.replace(page.rfind("</body>"), 7, asking);
+  writeText(folder / "asked.html", page);
+  const std::string told = browse("--dump-dom asked.html");
+  EXPECT_EQ(toldOf(told, "state"), "ready");
+  EXPECT_NEAR(numberIn(toldOf(told, "moved")), 2, 1e-3) << "4 m/s for half a second";
+  EXPECT_NEAR(numberIn(toldOf(told, "shadows")), 2, 1e-3) << "they are around what is followed";
+  EXPECT_EQ(toldOf(told, "words"), "v = 4 m/s") << "at the start and not at the end";
+  EXPECT_EQ(toldOf(told, "speed"), "0.3");
+}
+
 TEST_F(Take, AGltfIsReadByItsLibraryAndHasTheMotion) {
   const Outcome outcome =
       run("simulate wrecking_ball --set duration=1 --gltf w.glb --trajectory t.csv");
