@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "physics/bodies/hull.h"
 #include "physics/collision/triangle_tree.h"
@@ -38,17 +40,20 @@ void fill(Solid& s, const Cylinder& cylinder) {
   s.thickness = 2 * std::min(s.radius, s.halfLength);
 }
 
+// Each edge has the face that goes along it and the one that comes back.
 void fillEdges(Solid& s) {
-  for (const auto& [from, to] : s.hull->edges) {
-    Edge edge{from, to, Vec3::Zero(), Vec3::Zero()};
-    for (const Hull::Face& face : s.hull->faces) {
-      for (std::size_t k = 0; k < face.vertices.size(); ++k) {
-        const int here = face.vertices[k], next = face.vertices[(k + 1) % face.vertices.size()];
-        if (here == from && next == to) edge.normal0 = face.normal;
-        if (here == to && next == from) edge.normal1 = face.normal;
-      }
+  std::map<std::pair<int, int>, const Hull::Face*> faceAlong;
+  for (const Hull::Face& face : s.hull->faces) {
+    for (std::size_t k = 0; k < face.vertices.size(); ++k) {
+      faceAlong[{face.vertices[k], face.vertices[(k + 1) % face.vertices.size()]}] = &face;
     }
-    s.edges.push_back(edge);
+  }
+  const auto normalAlong = [&](int from, int to) -> Vec3 {
+    const auto found = faceAlong.find({from, to});
+    return found == faceAlong.end() ? Vec3(Vec3::Zero()) : found->second->normal;
+  };
+  for (const auto& [from, to] : s.hull->edges) {
+    s.edges.push_back({from, to, normalAlong(from, to), normalAlong(to, from)});
   }
 }
 
