@@ -85,6 +85,7 @@ struct Mjcf {
 };
 
 // The element with the defaults of its class, or of the class around it.
+// Defaults of a <spatial> are those of a <tendon>.
 Tag tagOf(const XmlElement& element, Mjcf& mjcf, const std::string& around = "");
 std::string classOf(const XmlElement& element, const Mjcf& mjcf, const std::string& around);
 

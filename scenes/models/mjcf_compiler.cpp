@@ -160,10 +160,11 @@ std::string classOf(const XmlElement& element, const Mjcf& mjcf, const std::stri
 Tag tagOf(const XmlElement& element, Mjcf& mjcf, const std::string& around) {
   mjcf.survey.asked(element.tag, "class");
   std::vector<const XmlElement*> standard;
+  const std::string kind = element.tag == "spatial" ? "tendon" : element.tag;
   const MjcfClass* from = &mjcf.classes.at(classOf(element, mjcf, around));
   for (; from != nullptr; from = from->parent) {
     for (auto it = from->elements.rbegin(); it != from->elements.rend(); ++it) {
-      if ((*it)->tag != element.tag) continue;
+      if ((*it)->tag != kind) continue;
       standard.push_back(*it);
       mjcf.survey.seen(**it);
     }

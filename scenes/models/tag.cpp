@@ -40,6 +40,7 @@ const std::string* Tag::find(const char* key) const {
   survey_.asked(own_.tag, key);
   if (const XmlAttribute* own = own_.find(key)) return &own->text;
   for (const XmlElement* element : standard_) {
+    survey_.asked(element->tag, key);
     if (const XmlAttribute* found = element->find(key)) return &found->text;
   }
   return nullptr;

@@ -137,11 +137,12 @@ TEST(MjcfTendon, OfAStiffnessIsASpring) {
 }
 
 TEST(MjcfTendon, BetweenSitesThatRepeatRepeats) {
-  const Simulation s(modelOf(mujoco(
-      "<worldbody><replicate count='3' offset='1 0 0'><site name='up' pos='0 0 2'/>"
-      "<body name='a' pos='0 0 1'><freejoint/><geom size='.1'/><site name='eye'/></body>"
-      "</replicate></worldbody><tendon><spatial range='0 1'><site site='up'/><site site='eye'/>"
-      "</spatial></tendon>")));
+  const Simulation s(modelOf(
+      mujoco("<default><tendon range='0 1'/></default>"
+             "<worldbody><replicate count='3' offset='1 0 0'><site name='up' pos='0 0 2'/>"
+             "<body name='a' pos='0 0 1'><freejoint/><geom size='.1'/><site name='eye'/></body>"
+             "</replicate></worldbody><tendon><spatial><site site='up'/><site site='eye'/>"
+             "</spatial></tendon>")));
   EXPECT_EQ(s.world().constraintErrors().at(0).count, 3);
 }
 
