@@ -98,7 +98,7 @@ class Archive {
     bool has = value.has_value();
     take(has);
     if (!has) value.reset();
-    if (has && !value) value.emplace();
+    if (has && !value) value.emplace(T{});
     if (has) take(*value);
   }
   template <class T>
