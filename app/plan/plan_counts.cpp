@@ -76,7 +76,8 @@ void add(const physics::IslandSteps& half, std::optional<physics::IslandSteps>& 
 
 std::vector<PlannedIslands> grouped(const Islands& islands) {
   std::vector<PlannedIslands> groups;
-  for (const auto& [first, island] : islands) {
+  for (const auto& entry : islands) {
+    const auto& island = entry.second;
     const auto found = std::find_if(groups.begin(), groups.end(), [&](const PlannedIslands& group) {
       return sameOf(group) == sameOf(island);
     });
