@@ -37,7 +37,7 @@ RunRecord recordOf(const Json& run) {
 }  // namespace
 
 Checkpoint::Checkpoint(const std::filesystem::path& motion, Json run)
-    : motion_(motion), file_(motion.string() + ".state"), run_(std::move(run)), cost_(kUsual) {}
+    : file_(motion.string() + ".state"), run_(std::move(run)), cost_(kUsual) {}
 
 Json Checkpoint::runOf(const RunRecord& record, int frames, int keeps) {
   return {{"program", record.program},

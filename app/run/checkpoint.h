@@ -36,7 +36,7 @@ class Checkpoint {
  private:
   [[noreturn]] void refuse(const Json& was) const;
 
-  std::filesystem::path motion_, file_;
+  std::filesystem::path file_;
   Json run_;
   std::string bytes_;
   Stopwatch sinceLast_;

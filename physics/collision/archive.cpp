@@ -23,8 +23,10 @@ void Pairs::archive(Archive& a) {
     for (const Watch& watch : *list) archiveFinding(a, watch);
   }
   if (!a.reads()) return;
-  for (std::size_t i = 0; i < items_.size(); ++i)
-    setMotion(items_[i], told_[i].first, told_[i].second);
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const auto& [from, to] = told_[i];
+    setMotion(items_[i], from.q.toRotationMatrix(), from, to);
+  }
   for (std::size_t t = 0; t < itemOfTree_.size(); ++t) {
     tree_.add(treeBounds_[t], items_[itemOfTree_[t]].solid.kind == Kind::point);
   }

@@ -214,12 +214,12 @@ bool Pairs::takeMotion(int i, const Pose& bodyFrom, const Pose& bodyTo) {
   const double reach = item.isPlane ? kPlaneReach : item.solid.size;
   item.travel += (from.x - item.x).norm() + reach * std::sqrt(0.5) * (R - item.R).norm();
   told_[i] = {from, to};
-  setMotion(item, from, to);
+  setMotion(item, R, from, to);
   return planeMoved;
 }
 
-void Pairs::setMotion(Item& item, const Pose& from, const Pose& to) {
-  item.R = from.q.toRotationMatrix();
+void Pairs::setMotion(Item& item, const Mat3& R, const Pose& from, const Pose& to) {
+  item.R = R;
   item.x = from.x;
   item.move = to.x - from.x;
   item.turn = item.solid.coreRadius * 2 * (from.q.conjugate() * to.q).vec().norm();

@@ -61,7 +61,7 @@ class Pairs {
   Watch newWatch(int p, int q);
   void name(const Watch& watch, Manifold& manifold) const;
   void archiveFinding(Archive& a, const Watch& watch);
-  static void setMotion(Item& item, const Pose& from, const Pose& to);
+  static void setMotion(Item& item, const Mat3& R, const Pose& from, const Pose& to);
 
   std::vector<Item> items_;
   std::vector<std::pair<Pose, Pose>> told_;  // by item: the motion that find() was given
