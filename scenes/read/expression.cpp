@@ -10,6 +10,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "scenes/read/value.h"
 
@@ -23,7 +24,9 @@ constexpr const char* kFunctions[] = {"sin", "cos",   "tan",  "asin",  "acos",  
 
 bool isLetter(unsigned char c) { return std::isalnum(c) || c == '_'; }
 
-double remainder(double a, double b) { return a - b * std::floor(a / b); }
+double remainder(double a, double b) {
+  return b == 0 ? std::numeric_limits<double>::quiet_NaN() : a - b * std::floor(a / b);
+}
 double negation(double a) { return a == 0 ? 1 : 0; }
 double radians(double degrees) { return degrees * (M_PI / 180); }
 

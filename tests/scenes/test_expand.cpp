@@ -50,6 +50,7 @@ TEST(Expression, RandomFollowsFromItsNumbers) {
 
 TEST(Expression, TellsWhatIsWrongAndWhere) {
   EXPECT_EQ(mistakeIn("1 / 0"), "-1: expected a finite number, got inf");
+  EXPECT_EQ(mistakeIn("1 % 0"), "-1: expected a finite number, got nan");
   EXPECT_EQ(mistakeIn("1 + bb"), "4: unknown name 'bb'");
   EXPECT_EQ(mistakeIn("1 + sine(2)"), "8: no function or list 'sine'; did you mean 'sin'?");
   EXPECT_EQ(mistakeIn("1 +"), "3: expected an expression");
