@@ -30,6 +30,13 @@ void turnFreely(Bodies& bodies, int i, const Vec3& torque, double dt) {
   pose.q = exponential(bodies.freeTurn[i]) * pose.q;  // (31)
 }
 
+// (D + [b]x)^-1 r. The determinant is a sum of what is positive: D's and b . D b.
+Vec3 solveDiagonalAndCross(const Vec3& d, const Vec3& b, const Vec3& r) {
+  const Vec3 db = d.cwiseProduct(b);
+  const Vec3 minors(d.y() * d.z(), d.z() * d.x(), d.x() * d.y());
+  return (minors.cwiseProduct(r) + b.dot(r) * b - db.cross(r)) / (d.prod() + b.dot(db));
+}
+
 // Newton on F(Omega_m) = I Omega_m - (1 - e) M - e exp(-h Omega_m) M; dF = I - e h [M']x to first
 // order in h.
 FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end,
@@ -47,9 +54,7 @@ FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end
       turn.after = after.cwiseQuotient(inertia);
       break;
     }
-    Mat3 jacobian = -end * dt * skew(after);
-    jacobian.diagonal() += inertia;
-    turn.mean -= jacobian.inverse() * residual;
+    turn.mean -= solveDiagonalAndCross(inertia, -end * dt * after, residual);
   }
   return turn;
 }
