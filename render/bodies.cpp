@@ -25,6 +25,10 @@ std::size_t levelFor(float radiusInPixels) {
   return level;
 }
 
+// What reaches farther, as a wall or a floor, mostly lies behind the rest: it is drawn last, and
+// where it is hidden it need not be shaded.
+constexpr float kLargeShare = 0.1f;  // of the picture's height
+
 // The radius of what is round of it.
 float roundingOf(const Instance& instance) {
   const Vec3f size = instance.size.cwiseAbs();
@@ -38,11 +42,17 @@ float roundingOf(const Instance& instance) {
 Bodies::Bodies(const std::string& defines) {
   colorProgram_ = makeProgram(kBodyVertex, kBodyFragment, defines);
   casterProgram_ = makeProgram(kBodyVertex, kCasterFragment, "#define CASTER\n");
+  facingColorProgram_ = makeProgram(kFacingVertex, kBodyFragment, "#define FACING\n" + defines);
+  facingCasterProgram_ = makeProgram(kFacingVertex, kCasterFragment, "#define CASTER\n");
   instanceBuffer_ = makeBuffer();
   casterBuffer_ = makeBuffer();
   shapes_.push_back(upload(unitBox(), true));
-  for (const auto make : {unitSphere, unitCapsule, unitCylinder})
-    for (const int segments : kSegments) shapes_.push_back(upload(make(segments), true));
+  for (const auto make : {facingBall, facingCapsule, unitCylinder}) {
+    for (const int segments : kSegments) {
+      shapes_.push_back(upload(make(segments), true));
+      shapes_.back().facing = make != unitCylinder;
+    }
+  }
 }
 
 Bodies::Shape Bodies::upload(const Geometry& geometry, bool closed) {
@@ -51,6 +61,7 @@ Bodies::Shape Bodies::upload(const Geometry& geometry, bool closed) {
               makeBuffer(),
               static_cast<GLsizei>(geometry.indices.size()),
               closed,
+              false,
               ++uploads_};
   glBindVertexArray(shape.array);
   fillBuffer(GL_ARRAY_BUFFER, shape.vertices, geometry.vertices, GL_STATIC_DRAW);
@@ -122,13 +133,15 @@ void Bodies::sortInstances(const Picture& picture, const Frame& frame) {
     const float alpha = instance.color.w();
     if (alpha <= 0) continue;
     const float depth = frame.depthOf(instance.position);
-    const float pixels =
-        frame.pixelsPerMetre * roundingOf(instance) / std::max(depth, frame.nearest);
-    sorted_.push_back({shapeOf(instance, pixels), i, depth, alpha >= 1});
+    const float perMetre = frame.pixelsPerMetre / std::max(depth, frame.nearest);
+    const bool large =
+        perMetre * radiusOf(instance) > kLargeShare * static_cast<float>(frame.height);
+    sorted_.push_back(
+        {shapeOf(instance, perMetre * roundingOf(instance)), i, depth, alpha >= 1, large});
   }
   const auto key = [](const Sorted& s) {
-    return s.opaque ? std::tuple(0, s.shape, s.depth, s.instance)
-                    : std::tuple(1, std::size_t{0}, -s.depth, s.instance);
+    return s.opaque ? std::tuple(s.large ? 1 : 0, s.shape, s.depth, s.instance)
+                    : std::tuple(2, std::size_t{0}, -s.depth, s.instance);
   };
   std::sort(sorted_.begin(), sorted_.end(),
             [key](const Sorted& a, const Sorted& b) { return key(a) < key(b); });
@@ -203,8 +216,8 @@ void Bodies::drawCasters(std::span<const std::size_t> which) {
     ++batches.back().count;
   }
   fillBuffer(GL_ARRAY_BUFFER, casterBuffer_, data, GL_STREAM_DRAW);
-  glUseProgram(casterProgram_);
   for (const Batch& batch : batches) {
+    glUseProgram(shapes_[batch.shape].facing ? facingCasterProgram_ : casterProgram_);
     cullBack(batch);
     drawBatch(batch, casterBuffer_);
   }
@@ -219,8 +232,8 @@ void Bodies::cullBack(const Batch& batch) const {
 }
 
 void Bodies::draw() const {
-  glUseProgram(colorProgram_);
   for (const Batch& batch : batches_) {
+    glUseProgram(shapes_[batch.shape].facing ? facingColorProgram_ : colorProgram_);
     cullBack(batch);
     if (batch.opaque)
       glDisable(GL_BLEND);

@@ -35,6 +35,7 @@ class Bodies {
     GLuint array = 0, vertices = 0, indices = 0;
     GLsizei count = 0;
     bool closed = true;      // its back is never seen
+    bool facing = false;     // the half that faces the viewer, of a ball or a capsule
     std::size_t upload = 0;  // the how many-th
   };
   struct Kept {  // holding the mesh keeps its address from being used again
@@ -48,7 +49,7 @@ class Bodies {
   struct Sorted {
     std::size_t shape = 0, instance = 0;
     float depth = 0;
-    bool opaque = true;
+    bool opaque = true, large = false;
   };
   struct Batch {
     std::size_t shape = 0, first = 0;
@@ -68,6 +69,7 @@ class Bodies {
   void drawBatch(const Batch& batch, GLuint instances) const;
 
   GLuint colorProgram_ = 0, casterProgram_ = 0, instanceBuffer_ = 0, casterBuffer_ = 0;
+  GLuint facingColorProgram_ = 0, facingCasterProgram_ = 0;
   std::size_t uploads_ = 0;
   std::vector<Shape> shapes_;  // box, then the levels of the round ones, then meshes
   std::unordered_map<const Mesh*, Kept> meshes_;

@@ -68,6 +68,87 @@ Geometry roundBody(int segments, bool capsule) {
   return geometry;
 }
 
+// How far out the corners of half a circle in so many pieces are, in radii.
+double outOf(int pieces) { return 2 * cornerRadius(2 * pieces); }
+
+// A meridian of a half that faces the viewer, from pole to pole.
+struct Meridian {
+  std::uint32_t first = 0;
+  int pieces = 0;
+};
+
+// `at`: 0 at the tube, 1 at the outline. Shares are those of a body seen from across its axis,
+// where the middle is 45 degrees from both.
+Meridian addMeridian(Geometry& geometry, float end, double at, int pieces, double polesOut) {
+  const Meridian meridian{countOf(geometry), pieces};
+  const double inner = std::min(2 * at, 1.0), outer = std::max(2 * at - 1, 0.0);
+  const auto share = [](double part) { return static_cast<float>(std::sin(kPi / 4 * part)); };
+  const std::array<float, 3> shares{share(1 - inner), share(at < 0.5 ? inner : 1 - outer),
+                                    share(outer)};
+  for (int i = 0; i <= pieces; ++i) {
+    const bool pole = i == 0 || i == pieces;
+    const double angle = kPi * (static_cast<double>(i) / pieces - 0.5);
+    const double out = pole ? polesOut : outOf(pieces);
+    geometry.vertices.push_back({{end, pole ? 0.0f : static_cast<float>(std::cos(angle)),
+                                  static_cast<float>(std::sin(angle)), static_cast<float>(out)},
+                                 shares,
+                                 {0, 0}});
+  }
+  return meridian;
+}
+
+bool samePole(const Vertex& a, const Vertex& b) {
+  return a.position[1] == 0 && b.position[1] == 0 && a.position[0] == b.position[0] &&
+         a.position[2] == b.position[2];
+}
+
+// Triangles between two meridians, in turns as their pieces end; none without area at a pole.
+// `other`: seen from the viewer, b lies to the other side of a.
+void joinMeridians(Geometry& geometry, const Meridian& a, const Meridian& b, bool other) {
+  const auto add = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
+    const std::vector<Vertex>& v = geometry.vertices;
+    if (samePole(v[p], v[q]) || samePole(v[q], v[r]) || samePole(v[r], v[p])) return;
+    for (const std::uint32_t index : {p, other ? r : q, other ? q : r})
+      geometry.indices.push_back(index);
+  };
+  for (int i = 0, j = 0; i < a.pieces || j < b.pieces;) {
+    const auto p = a.first + static_cast<std::uint32_t>(i);
+    const auto q = b.first + static_cast<std::uint32_t>(j);
+    const bool ofA = i < a.pieces && (i + 1) * b.pieces <= (j + 1) * a.pieces;
+    if (ofA) {
+      add(p, p + 1, q);
+      ++i;
+    } else {
+      add(p, q + 1, q);
+      ++j;
+    }
+  }
+}
+
+// The sides of a tube are straight lines from pole to pole: its poles lie on it, a ball's are
+// corners of its outline as any other. Seen along the axis, half of the outline is the tube's end.
+Geometry facing(int segments, bool capsule) {
+  Geometry geometry;
+  const int strips = segments <= 12 ? 1 : segments <= 24 ? 2 : segments <= 48 ? 4 : 8;
+  const int pieces = std::max(2 * strips, segments / 4);
+  std::array<Meridian, 2> tube;
+  for (const int end : {0, 1}) {
+    Meridian last;
+    for (int i = 0; i <= strips; ++i) {
+      const Meridian next =
+          addMeridian(geometry, end == 0 ? -1.0f : 1.0f, static_cast<double>(i) / strips,
+                      i == strips ? segments / 2 : pieces, capsule ? 1 : outOf(segments / 2));
+      if (i == 0)
+        tube[static_cast<std::size_t>(end)] = next;
+      else
+        joinMeridians(geometry, last, next, end == 1);
+      last = next;
+    }
+  }
+  if (capsule) joinMeridians(geometry, tube[0], tube[1], true);
+  return geometry;
+}
+
 void addCap(Geometry& geometry, int segments, float y) {
   const std::uint32_t center = countOf(geometry);
   const double r = cornerRadius(segments);
@@ -123,6 +204,10 @@ Geometry unitBox() {
   }
   return geometry;
 }
+
+Geometry facingBall(int segments) { return facing(segments, false); }
+
+Geometry facingCapsule(int segments) { return facing(segments, true); }
 
 Geometry unitSphere(int segments) { return roundBody(segments, false); }
 

@@ -21,6 +21,15 @@ struct Geometry {
 };
 
 Geometry unitBox();
+
+// The half of a ball or a capsule that faces the viewer, whom the shader knows: kFacingVertex.
+// Meridians run from pole to pole, which lie at both sides of what the viewer sees; the last is the
+// outline, of `segments` / 2 pieces, the first the end of the tube. Vertex::position is the end (+1
+// or -1), cosine and sine along the meridian and how far out; Vertex::normal how much of the first,
+// the middle and the last meridian is in its own.
+Geometry facingBall(int segments);
+Geometry facingCapsule(int segments);
+
 // Round ones have `segments` around, a multiple of four; their corners are as far outside the true
 // surface as the middles of the edges around are within it.
 Geometry unitSphere(int segments);    // diameter 1

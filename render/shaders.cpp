@@ -41,10 +41,10 @@ namespace render {
   "#endif\n"
 
 const char* const kBodyVertex = FRAME_BLOCK R"(
-layout(location = 0) in vec4 position;
+layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 edge;
-layout(location = 3) in vec4 place;  // centre, half the distance of a capsule's ends
+layout(location = 3) in vec4 place;  // centre
 layout(location = 4) in vec4 turn;   // quaternion
 layout(location = 5) in vec4 scale;  // w: marked
 layout(location = 6) in vec4 tint;   // linear
@@ -57,7 +57,7 @@ flat out float vMarked;
 #endif
 vec3 turned(vec3 p) { return p + 2.0 * cross(turn.xyz, cross(turn.xyz, p) + turn.w * p); }
 void main() {
-  vec3 body = position.xyz * scale.xyz + vec3(0.0, position.w * place.w, 0.0);
+  vec3 body = position * scale.xyz;
   vec3 world = place.xyz + turned(body);
   gl_ClipDistance[0] = ground.y > 0.0 ? world.y - ground.x : 1.0;
 #ifdef CASTER
@@ -72,6 +72,71 @@ void main() {
   vEdge = edge;
   vTint = tint;
   vMarked = scale.w;
+#endif
+}
+)";
+
+// Of a ball, an ellipsoid or a capsule no more than the half is drawn that faces the viewer, or the
+// light, in as many facets as its outline needs. In here one radius is the unit: a body is a ball,
+// or two with a tube between them, and its outline is a circle at each end.
+const char* const kFacingVertex = FRAME_BLOCK R"(
+layout(location = 0) in vec4 position;  // end, along the meridian: cosine and sine; outwards
+layout(location = 1) in vec3 meridian;  // shares of the tube's end, the middle, the outline
+layout(location = 3) in vec4 place;  // centre, half the distance of a capsule's ends
+layout(location = 4) in vec4 turn;
+layout(location = 5) in vec4 scale;
+layout(location = 6) in vec4 tint;
+out float gl_ClipDistance[1];
+#ifndef CASTER
+out vec3 vBody;
+flat out vec4 vEye, vTurn, vCenter, vHalf, vTint;
+#endif
+vec3 turned(vec3 p) { return p + 2.0 * cross(turn.xyz, cross(turn.xyz, p) + turn.w * p); }
+vec3 turnedBack(vec3 p) { return p + 2.0 * cross(turn.xyz, cross(turn.xyz, p) - turn.w * p); }
+void main() {
+  vec3 radii = max(0.5 * abs(scale.xyz), vec3(1e-15));
+  float reach = place.w / radii.y;
+  vec3 end = vec3(0.0, position.x * reach, 0.0);
+#ifdef CASTER
+  vec3 toward = normalize(turnedBack(-vec3(toShadow[0].z, toShadow[1].z, toShadow[2].z)) / radii);
+  float near = 0.0;  // of a radius, from the centre to the plane of the outline
+#else
+  vec3 viewer = turnedBack(eye.xyz - place.xyz) / radii;
+  vec3 toward = viewer - end;
+  float near = min(1.0 / length(toward), 0.99);
+  toward = normalize(toward);
+#endif
+  // A ball has its axis across the view, and the same however it is turned.
+  vec3 up = turnedBack(vec3(0.0, 1.0, 0.0)), right = turnedBack(vec3(1.0, 0.0, 0.0));
+  vec3 axis = reach > 0.0 ? vec3(0.0, 1.0, 0.0)
+                          : normalize(cross(toward, abs(dot(toward, up)) < 0.7 ? up : right));
+  float along = dot(toward, axis);
+  vec3 off = toward - along * axis;
+  float across = length(off);
+  vec3 front = across > 1e-6 ? off / across : vec3(1.0, 0.0, 0.0);
+  vec3 pole = cross(front, axis), side = position.x * (across * axis - along * front);
+  float ahead = clamp(position.x * along, -1.0, 1.0);
+  vec3 middle = sqrt(0.5 + 0.5 * ahead) * toward + sqrt(0.5 - 0.5 * ahead) * side;
+  vec3 on = normalize(meridian.x * front + meridian.y * middle + meridian.z * side);
+  on = position.y * on + position.z * pole;
+  // What lies on or behind the outline is moved out to the rays that touch it.
+  float height = dot(on, toward);
+  float rim = sqrt((1.0 - near * near) * max(1.0 - height * height, 0.0)) + height * near;
+  on *= height < near + 1e-3 ? position.w / rim : 1.0;
+  vec3 body = on + end;
+  vec3 world = place.xyz + turned(body * radii);
+  gl_ClipDistance[0] = ground.y > 0.0 ? world.y - ground.x : 1.0;
+#ifdef CASTER
+  vec3 inShadow = (toShadow * vec4(world, 1.0)).xyz;
+  gl_Position = vec4(2.0 * inShadow - 1.0, 1.0);
+#else
+  gl_Position = toClip * vec4(world, 1.0);
+  vBody = body;
+  vEye = vec4(viewer, reach);
+  vTurn = turn;
+  vCenter = vec4(place.xyz, scale.w);
+  vHalf = vec4(radii, 0.0);
+  vTint = tint;
 #endif
 }
 )";
@@ -108,6 +173,9 @@ uniform sampler2DShadow shadowMap;
 #ifdef SURFACE
 uniform vec4 tints[2];  // front and back, linear
 in vec3 vWorld, vNormal, vCell;
+#elif defined FACING
+in vec3 vBody;
+flat in vec4 vEye, vTurn, vCenter, vHalf, vTint;
 #else
 in vec3 vWorld, vNormal, vBody, vInShadow;
 in vec2 vEdge;
@@ -148,6 +216,7 @@ float lineDarkness() {
   return max(max(line.x, line.y), line.z);
 }
 #else
+#ifndef FACING
 float edgeDarkness() {
   vec2 width = max(fwidth(vEdge), vec2(1e-6));
   vec2 away = max(vec2(1.0) - abs(vEdge), vec2(0.0)) / width;
@@ -155,10 +224,24 @@ float edgeDarkness() {
   line *= clamp(1.5 - 6.0 * width, 0.0, 1.0);
   return max(line.x, line.y);
 }
+#endif
 
-float mark() {
-  vec3 side = clamp(vBody / max(fwidth(vBody), vec3(1e-9)), -1.0, 1.0);
+float mark(vec3 body) {
+  vec3 side = clamp(body / max(fwidth(body), vec3(1e-9)), -1.0, 1.0);
   return 0.5 + 0.5 * side.x * side.y * side.z;
+}
+#endif
+
+#ifdef FACING
+vec3 turned(vec3 p) { return p + 2.0 * cross(vTurn.xyz, cross(vTurn.xyz, p) + vTurn.w * p); }
+
+// Where the ray through a point of a facet meets the round body, in radii.
+vec3 hitBy(vec3 ray) {
+  float reach = vEye.w;
+  vec3 off = vBody - vec3(0.0, clamp(vBody.y, -reach, reach), 0.0);
+  vec3 across = abs(vBody.y) < reach ? vec3(ray.x, 0.0, ray.z) : ray;
+  float a = max(dot(across, across), 1e-6), b = dot(off, across), c = dot(off, off) - 1.0;
+  return vBody - (b + sqrt(max(b * b - a * c, 0.0))) / a * ray;
 }
 #endif
 
@@ -168,6 +251,11 @@ vec3 encoded(vec3 linear) {  // sRGB by three square roots, within 0.003
 }
 
 void main() {
+#ifdef FACING
+  vec3 hit = hitBy(normalize(vBody - vEye.xyz));
+  vec3 vWorld = vCenter.xyz + turned(hit * vHalf.xyz);
+  vec3 vNormal = turned((hit - vec3(0.0, clamp(hit.y, -vEye.w, vEye.w), 0.0)) / vHalf.xyz);
+#endif
   vec3 n = normalize(vNormal), toEye = normalize(eye.xyz - vWorld);
 #ifdef SURFACE
   vec4 tint = tints[gl_FrontFacing ? 0 : 1];
@@ -175,11 +263,16 @@ void main() {
   vec3 inShadow = (toShadow * vec4(vWorld + n * shadow.y, 1.0)).xyz;
   vec3 albedo = tint.rgb * (1.0 - 0.45 * lineDarkness());
   float dark = 0.0;
+#elif defined FACING
+  vec4 tint = vTint;
+  vec3 inShadow = (toShadow * vec4(vWorld + n * shadow.y, 1.0)).xyz;
+  vec3 albedo = tint.rgb * (1.0 - 0.45 * vCenter.w * mark(hit));
+  float dark = 0.0;
 #else
   vec4 tint = vTint;
   if (dot(n, toEye) < 0.0 && !gl_FrontFacing) n = -n;
   vec3 inShadow = vInShadow;
-  vec3 albedo = tint.rgb * (1.0 - 0.45 * vMarked * mark());
+  vec3 albedo = tint.rgb * (1.0 - 0.45 * vMarked * mark(vBody));
   float dark = edgeDarkness();
 #endif
   float facing = dot(n, towardLight.xyz);

@@ -4,7 +4,8 @@
 namespace render {
 
 extern const char* const kBodyVertex;       // instances; with CASTER: into the shadow map
-extern const char* const kBodyFragment;     // lit, premultiplied colour, sRGB; SURFACE: of those
+extern const char* const kFacingVertex;     // round instances; with CASTER: into the shadow map
+extern const char* const kBodyFragment;     // lit, premultiplied, sRGB; SURFACE, FACING: of those
 extern const char* const kSurfaceVertex;    // surfaces; with CASTER: into the shadow map
 extern const char* const kCasterFragment;   // depth only
 extern const char* const kFloorVertex;      // the ground, as far as it is seen
