@@ -1,7 +1,7 @@
 // The factor of an island's rows at both ends of a step.
 #include "physics/accurate/cross_system.h"
 
-#include <Eigen/LU>
+#include "physics/base/inverse.h"
 
 namespace physics {
 
@@ -48,7 +48,7 @@ void CrossSystem::build(std::span<const IslandRow> ends, std::span<const IslandR
 void CrossSystem::eliminate(int i) {
   const JointColumn& column = topology_->columns[i];
   const JointBelow* below = topology_->below.data() + column.start;
-  diagonal_[i] = diagonal_[i].inverse().eval();
+  diagonal_[i] = inverseOrNan(diagonal_[i]);
   for (int q = 0; q < column.count; ++q) lower_[below[q].block] *= diagonal_[i];
   for (int q = 0; q < column.count; ++q) {
     const int* target = topology_->updates.data() + column.updates + q * (q + 1) / 2;

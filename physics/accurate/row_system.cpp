@@ -1,7 +1,7 @@
 // The factor of an island's rows.
 #include "physics/accurate/row_system.h"
 
-#include <Eigen/LU>
+#include "physics/base/inverse.h"
 
 namespace physics {
 RowSystem::RowSystem(std::shared_ptr<const JointTopology> topology)
@@ -62,7 +62,7 @@ void RowSystem::eliminate(int i) {
   if (topology_->shapes[i].rows == 1) return eliminateSingle(i);
   const JointColumn& column = topology_->columns[i];
   const JointBelow* below = topology_->below.data() + column.start;
-  diagonal_[i] = diagonal_[i].inverse().eval();
+  diagonal_[i] = inverseOrNan(diagonal_[i]);
   for (int q = 0; q < column.count; ++q) {
     const int block = below[q].block;
     scaled_[block] = entries_[block] * diagonal_[i];

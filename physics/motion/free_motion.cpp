@@ -1,9 +1,10 @@
 // Free motion and the velocities at the end of a substep.
 #include "physics/motion/free_motion.h"
 
-#include <Eigen/LU>
+#include <array>
 #include <cmath>
 
+#include "physics/base/inverse.h"
 #include "physics/base/rotation.h"
 
 namespace physics {
@@ -37,8 +38,59 @@ Vec3 solveDiagonalAndCross(const Vec3& d, const Vec3& b, const Vec3& r) {
   return (minors.cwiseProduct(r) + b.dot(r) * b - db.cross(r)) / (d.prod() + b.dot(db));
 }
 
-// Newton on F(Omega_m) = I Omega_m - (1 - e) M - e exp(-h Omega_m) M; dF = I - e h [M']x to first
-// order in h.
+// exp(-theta) and its derivative, by Rodrigues' formula: I - sine [theta]x + cosine [theta]x^2.
+struct BackTurn {
+  Vec3 theta;
+  double sine, cosine, third;  // sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3
+
+  explicit BackTurn(const Vec3& turn) : theta(turn) {
+    const double x = theta.squaredNorm();
+    if (x <= 1) {  // eight terms leave 1e-17
+      cosine = seriesOf<2>(x);
+      third = seriesOf<3>(x);
+      sine = 1 - x * third;
+    } else {
+      const double angle = std::sqrt(x);
+      const SineCosine of = sineCosine(angle);
+      sine = of.sine / angle;
+      cosine = (1 - of.cosine) / x;
+      third = (1 - sine) / x;
+    }
+  }
+  // 1/n! - x/(n + 2)! + x^2/(n + 4)! - ...
+  template <int n>
+  static double seriesOf(double x) {
+    constexpr int kTerms = 9;
+    constexpr std::array<double, kTerms> factors = [] {
+      std::array<double, kTerms> of{};
+      double factorial = 1;
+      for (int k = 2; k <= n; ++k) factorial *= k;
+      for (int k = 0; k < kTerms; ++k) {
+        of[static_cast<std::size_t>(k)] = (k % 2 == 0 ? 1 : -1) / factorial;
+        factorial *= (n + 2 * k + 1) * (n + 2 * k + 2);
+      }
+      return of;
+    }();
+    double sum = factors[kTerms - 1];
+    for (std::size_t k = kTerms - 1; k-- > 0;) sum = sum * x + factors[k];
+    return sum;
+  }
+
+  Vec3 of(const Vec3& m) const {
+    const Vec3 across = theta.cross(m);
+    return m - sine * across + cosine * theta.cross(across);
+  }
+  // What `after` = of(m) changes by with theta: [after]x (I - cosine [theta]x + third [theta]x^2).
+  Mat3 derivative(const Vec3& after) const {
+    const double x = theta.squaredNorm();
+    Mat3 left = third * theta * theta.transpose() - cosine * skew(theta);
+    left.diagonal().array() += 1 - third * x;
+    return skew(after) * left;
+  }
+};
+
+// Newton on F(Omega_m) = I Omega_m - (1 - e) M - e exp(-h Omega_m) M. Where its derivative is not
+// regular, the first order of it in h is: I - e h [M']x.
 FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end,
                    const Vec3& guess) {
   constexpr int kMostIterations = 30;
@@ -47,14 +99,25 @@ FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end
   if (scale == 0) return {omega, omega, true};
   FreeTurn turn{guess, omega, true};
   for (int k = 0; k < kMostIterations; ++k) {
-    const Vec3 after = exponential(-dt * turn.mean) * momentum;
+    const BackTurn back(dt * turn.mean);
+    const Vec3 after = back.of(momentum);
     const Vec3 residual = inertia.cwiseProduct(turn.mean) - ((1 - end) * momentum + end * after);
     if (residual.norm() <= 4e-16 * scale || k == kMostIterations - 1) {
       turn.converged = residual.norm() <= 1e-9 * scale;
       turn.after = after.cwiseQuotient(inertia);
       break;
     }
-    turn.mean -= solveDiagonalAndCross(inertia, -end * dt * after, residual);
+    Mat3 jacobian = -end * dt * back.derivative(after);
+    jacobian.diagonal() += inertia;
+    const Vec3 minor = jacobian.col(1).cross(jacobian.col(2));
+    const double determinant = minor.dot(jacobian.col(0));
+    if (determinant > 0) {
+      turn.mean -= Vec3(minor.dot(residual), jacobian.col(2).cross(jacobian.col(0)).dot(residual),
+                        jacobian.col(0).cross(jacobian.col(1)).dot(residual)) /
+                   determinant;
+    } else {
+      turn.mean -= solveDiagonalAndCross(inertia, -end * dt * after, residual);
+    }
   }
   return turn;
 }
@@ -159,7 +222,7 @@ void refreshSpinInertia(Bodies& bodies, double dt) {
     const Mat3 rotation = bodies.pose[i].q.toRotationMatrix();
     const Mat3 inertia = rotation * bodies.inertia[i].asDiagonal() * rotation.transpose();
     const Mat3 spinning = inertia - skew(inertia * turn) + 0.5 * inertia * skew(turn);
-    bodies.inverse[i].inertia = spinning.inverse();
+    bodies.inverse[i].inertia = inverseOrNan(spinning);
   }
 }
 

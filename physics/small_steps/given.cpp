@@ -13,13 +13,21 @@ Vec3 at(const float (&rows)[3][kLanes], int l) { return {rows[0][l], rows[1][l],
 
 }  // namespace
 
+void ContactLoads::takeLane(const ContactBlock& block, int l) {
+  for (int k = 0; k < block.points; ++k) point[k][l] = block.point[k].lambda[l];
+  for (int t = 0; t < 2; ++t) tangent[t][l] = block.tangent[t].lambda[l];
+  twist[l] = block.twist[l];
+}
+
+void ContactLoads::giveLane(ContactBlock& block, int l) const {
+  for (int k = 0; k < block.points; ++k) block.point[k].lambda[l] = point[k][l];
+  for (int t = 0; t < 2; ++t) block.tangent[t].lambda[l] = tangent[t][l];
+  block.twist[l] = twist[l];
+}
+
 ContactLoads loadsOf(const ContactBlock& block) {
   ContactLoads loads;
-  for (int l = 0; l < kLanes; ++l) {
-    for (int k = 0; k < block.points; ++k) loads.point[k][l] = block.point[k].lambda[l];
-    for (int t = 0; t < 2; ++t) loads.tangent[t][l] = block.tangent[t].lambda[l];
-    loads.twist[l] = block.twist[l];
-  }
+  for (int l = 0; l < kLanes; ++l) loads.takeLane(block, l);
   return loads;
 }
 

@@ -1,6 +1,7 @@
 // What contacts carry where nothing is known of it yet: the load that holds the bodies where they
 // stand.
 #include <algorithm>
+#include <cmath>
 
 #include "physics/small_steps/small_steps_impl.h"
 
@@ -32,25 +33,43 @@ void SmallSteps::Impl::learnLoads(Model& w) {
   w.bodies.velocity = velocity;
 }
 
-// After so many sweeps over contacts alone: all others change nothing, to the last bit, as they go
-// round in a circle of which they make whole turns.
-bool SmallSteps::Impl::isBalanced(Batch& batch, int sweeps) {
+// By contact of the batch: its island's first body, its block, what that carried when it was last
+// looked at, and its lane.
+template <typename Visit>
+void SmallSteps::Impl::forEachLane(const Model& w, Batch& batch, Visit&& visit) {
+  for (std::size_t k = 0; k < batch.blocks.size(); ++k) {
+    ContactBlock& block = batch.blocks[k];
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
+      const KeptContact& c = contacts[block.contact[l]];
+      visit(islands[isMovable(w.bodies, c.a) ? c.a : c.b], block, batch.told[k], l);
+    }
+  }
+}
+
+// After so many sweeps over contacts alone: no load of any island changes by more than numbers in
+// single precision do where sweeps overshoot. Each island keeps what it carries once that is so.
+bool SmallSteps::Impl::isBalanced(const Model& w, Batch& batch, int sweeps) {
   constexpr int kRound = 32;
+  constexpr float kSettled = 1e-6f;  // of the largest load
   static_assert(kSweeps % kRound == 0);
   if (!learning || batch.isMixed() || sweeps % kRound != 0) return false;
-  bool isSame = balanced.size() == batch.motions.size() && sweeps > kRound;
-  batch.told.resize(batch.blocks.size());
-  for (std::size_t k = 0; k < batch.blocks.size(); ++k) {
-    const ContactLoads loads = loadsOf(batch.blocks[k]);
-    isSame = isSame && loads == batch.told[k];
-    batch.told[k] = loads;
-  }
-  for (std::size_t s = 0; isSame && s < balanced.size(); ++s) {
-    isSame = std::equal(balanced[s].u, balanced[s].u + 3, batch.motions[s].u) &&
-             std::equal(balanced[s].turn, balanced[s].turn + 3, batch.motions[s].turn);
-  }
-  balanced = batch.motions;
-  return isSame;
+  std::vector<float> changes(islands.size(), 0), largest(islands.size(), 0);
+  forEachLane(w, batch, [&](BodyId root, const ContactBlock& block, ContactLoads& told, int l) {
+    if (settled[root]) return;
+    for (int k = 0; k < block.points; ++k) {
+      const float load = block.point[k].lambda[l];
+      changes[root] = std::max(changes[root], std::abs(load - told.point[k][l]));
+      largest[root] = std::max(largest[root], load);
+    }
+    told.takeLane(block, l);
+  });
+  bool areAll = true;
+  forEachLane(w, batch, [&](BodyId root, const ContactBlock&, const ContactLoads&, int) {
+    if (changes[root] <= kSettled * largest[root]) settled[root] = 1;
+    areAll = areAll && settled[root] != 0;
+  });
+  return areAll;
 }
 
 void SmallSteps::Impl::learnLoads(Model& w, Batch& batch) {
@@ -61,8 +80,13 @@ void SmallSteps::Impl::learnLoads(Model& w, Batch& batch) {
   if (!batch.blocks.empty()) rows(w, batch, h);
   lookAgain(w, batch, h);
   batch.sweeps = batch.isMixed() ? kJointedSweeps : kSweeps;
+  batch.told.assign(batch.blocks.size(), ContactLoads{});
+  settled.assign(islands.size(), 0);
   solvePositions(w, batch, h);
   solveVelocities(w, batch, h);
+  forEachLane(w, batch, [&](BodyId root, ContactBlock& block, const ContactLoads& told, int l) {
+    if (settled[root]) told.giveLane(block, l);
+  });
   batch.sweeps = 1;
   for (int i = 0; i < 2; ++i) takeOver(w, batch, h);  // as if it had been for two steps
   ask(w, batch, h);

@@ -87,7 +87,8 @@ struct alignas(32) LaneNumbers {
 struct ContactLoads {
   float point[ContactBlock::kPoints][ContactBlock::kLanes] = {};
   float tangent[2][ContactBlock::kLanes] = {}, twist[ContactBlock::kLanes] = {};
-  bool operator==(const ContactLoads&) const = default;
+  void takeLane(const ContactBlock& block, int l);
+  void giveLane(ContactBlock& block, int l) const;
 };
 ContactLoads loadsOf(const ContactBlock& block);
 
@@ -112,7 +113,7 @@ struct SmallSteps::Batch {
   std::vector<LaneStart> before;      // of the motions, when the bodies last knew of them
   std::vector<LaneMass> masses;
   std::vector<LaneInverse> inverses;
-  std::vector<ContactLoads> told;   // by block: what bodies know of
+  std::vector<ContactLoads> told;   // by block: what bodies know of; learning: some sweeps ago
   std::vector<Displacement> given;  // by slot: impulses, and turns in the units of the lanes
   std::vector<BodyId> slots;        // the body of each slot
   std::vector<KeptStart> kept;      // of `bodies`, where joints may have to make their step again
@@ -324,11 +325,13 @@ struct SmallSteps::Impl {
   void tell(const Model& w, int parts) const;
   void countParts(const Batch& batch, std::map<BodyId, IslandPlan>& plans) const;
   void learnLoads(Model& w, Batch& batch);
-  bool isBalanced(Batch& batch, int sweeps);
+  template <typename Visit>
+  void forEachLane(const Model& w, Batch& batch, Visit&& visit);
+  bool isBalanced(const Model& w, Batch& batch, int sweeps);
   const std::function<void()>* wake = nullptr;  // of the present step
-  bool fresh = true;                 // nothing has stepped yet, or the state came from elsewhere
-  std::vector<LaneMotion> balanced;  // while it is learning, some sweeps ago
-  bool learning = false;             // what contacts carry: they do not give way, nor push
+  bool fresh = true;          // nothing has stepped yet, or the state came from elsewhere
+  bool learning = false;      // what contacts carry: they do not give way, nor push
+  std::vector<char> settled;  // then: an island's loads, by its first body
   void fill(const Model& w, double h, bool takesTurns, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
   void noteDeep(const Model& w, Batch& batch, double h) const;

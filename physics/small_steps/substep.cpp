@@ -1,6 +1,6 @@
 // One substep of a batch: predict, positions, displace, velocities.
-#include <Eigen/LU>
 
+#include "physics/base/inverse.h"
 #include "physics/base/profile.h"
 #include "physics/motion/free_motion.h"
 #include "physics/small_steps/small_steps_impl.h"
@@ -123,7 +123,7 @@ void SmallSteps::Impl::predictTurn(Model& w, BodyId i, double h, double kick, bo
   inertias[i] = inertia;
   spins[i] = m.theta;
   if (articulationOf[i] >= 0 && !stiffness[i].isZero(0)) {
-    masses[i].inertia = (inertia + stiffness[i]).inverse();
+    masses[i].inertia = inverseOrNan<Mat3>(inertia + stiffness[i]);
   }
 }
 
@@ -289,7 +289,7 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   for (int s = 0; s < batch.sweeps; ++s) {
     if (count > 0) {
       sweepContactVelocities(w, batch, s, h);
-      if (isBalanced(batch, s + 1)) break;
+      if (isBalanced(w, batch, s + 1)) break;
       if (!isMixed) continue;
       if (inLanes) {
         batch.joints.solveVelocities(lanesOf(batch));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "physics/base/inverse.h"
 #include "physics/solver/deformable.h"
 
 namespace physics {
@@ -60,7 +61,7 @@ void Deformable::takeMasses(std::span<const JointMass> masses) {
       unknown_[k] = unknowns_;
       unknowns_ += turns_[k] ? 6 : 3;
     }
-    if (turns_[k]) inertia_[k] = mass.inertia.inverse();
+    if (turns_[k]) inertia_[k] = inverseOrNan(mass.inertia);
   }
   factor_->stale = true;
 }

@@ -1,7 +1,7 @@
 // Kinds of constraints and forces as rows of an articulation.
 #include "physics/solver/joint_row.h"
 
-#include <Eigen/LU>
+#include "physics/base/inverse.h"
 
 namespace physics {
 namespace {
@@ -39,7 +39,7 @@ void takeForce(const Evaluated<C>& push, JointRow& joint) {
   joint.role = JointRow::Role::kForce;
   Eigen::Matrix<double, kRows, kRows> k = 0.5 * (push.k + push.k.transpose());
   k.diagonal().array() += kLeastCompliance * mean;
-  const Eigen::Matrix<double, kRows, kRows> compliance = k.inverse();
+  const Eigen::Matrix<double, kRows, kRows> compliance = inverseOrNan(k);
   joint.alpha.template topLeftCorner<kRows, kRows>() = compliance;
   joint.c.template head<kRows>() = -(compliance * push.f);
 }

@@ -1,10 +1,10 @@
 // Contacts of points and links as rows.
 #include "physics/solver/soft_rows.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
+#include "physics/base/inverse.h"
 #include "physics/constraints/friction.h"
 
 namespace physics {
@@ -73,7 +73,7 @@ void prepareSoftRows(std::span<const SoftContact> contacts, std::span<const Pose
     const Eigen::Matrix2d resistance = (link + row.inverseMass) * Eigen::Matrix2d::Identity() +
                                        levers.transpose() * row.inertia * levers;
     row.tangentInverse = Eigen::Matrix2d::Zero();
-    if (row.inverse > 0) row.tangentInverse = resistance.inverse();
+    if (row.inverse > 0) row.tangentInverse = inverseOrNan(resistance);
     row.lambda = c.normalTotal;
     row.friction = row.tangents.transpose() * c.frictionTotal;
   }

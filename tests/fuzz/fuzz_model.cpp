@@ -6,7 +6,7 @@
 #include "tests/fuzz/try_scene.h"
 
 // Sanitized and without optimisation, a step of the pyramid's 210 bodies takes more than
-// libFuzzer's ten seconds.
+// libFuzzer's limit.
 constexpr int kMostStepped = 60;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -19,6 +19,6 @@ cmake --build "$folder" --target "$target" scene_words
 mkdir -p "$corpus" "$folder/found"
 "$folder/tests/fuzz/scene_words" > "$folder/words.dict"
 # New inputs go to the first folder; what is shipped is the seed.
-exec "$folder/tests/fuzz/$target" -max_total_time="$seconds" -dict="$folder/words.dict" -timeout=10 \
+exec "$folder/tests/fuzz/$target" -max_total_time="$seconds" -dict="$folder/words.dict" -timeout=30 \
   -rss_limit_mb=2048 -malloc_limit_mb=256 -artifact_prefix="$folder/found/" "$@" \
   "$corpus" "${seeds[@]}"
