@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "physics/base/inverse.h"
 #include "physics/world/measure.h"
 #include "tests/physics/pair.h"
 #include "tests/physics/sweeps.h"
@@ -151,6 +152,23 @@ TEST(FreeTurn, KeepsMomentumAndEnergyOfATumblingRodAtAnySpeed) {
   const Vec3 before = inertia.cwiseProduct(omega), after = inertia.cwiseProduct(turn.after);
   EXPECT_LT((exponential(dt * turn.mean) * after - before).norm(), 1e-9 * before.norm());
   EXPECT_NEAR(after.dot(turn.after) / before.dot(omega), 1, 1e-9);
+}
+
+// Under the sanitizers nothing is divided by zero on the way.
+TEST(FreeTurn, ThatNumbersCannotFollowIsToldAndKeptAsItWas) {
+  const Vec3 inertia(0.004, 0.02, 0.021), omega(1e18, -3e17, 2e17);
+  const FreeTurn turn = freeTurn(inertia, omega, 1.0 / 60);
+  EXPECT_FALSE(turn.converged);
+  EXPECT_EQ(turn.mean, omega);
+  EXPECT_EQ(turn.after, omega);
+}
+
+TEST(Inverse, OfASingularMatrixIsNotANumber) {
+  const Vec3 n(1, 2, 3);
+  EXPECT_TRUE(inverseOrNan<Mat3>(Vec3(1, 1, 0).asDiagonal()).hasNaN());
+  EXPECT_TRUE(inverseOrNan<Mat3>(1e-120 * Mat3::Identity()).hasNaN());  // its determinant is zero
+  const Mat3 regular = Mat3(n * n.transpose()) + Mat3::Identity();
+  EXPECT_NEAR(0, (regular * inverseOrNan(regular) - Mat3::Identity()).norm(), 1e-14);
 }
 
 TEST(FreeTop, ThatBdf2DoesNotResolveKeepsItsMomentumAndEnergy) {
