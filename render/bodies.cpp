@@ -135,7 +135,7 @@ void Bodies::sortInstances(const Picture& picture, const Frame& frame) {
     const float depth = frame.depthOf(instance.position);
     const float perMetre = frame.pixelsPerMetre / std::max(depth, frame.nearest);
     const bool large =
-        perMetre * radiusOf(instance) > kLargeShare * static_cast<float>(frame.height);
+        perMetre * frame.balls[i].radius > kLargeShare * static_cast<float>(frame.height);
     sorted_.push_back(
         {shapeOf(instance, perMetre * roundingOf(instance)), i, depth, alpha >= 1, large});
   }

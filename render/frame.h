@@ -54,7 +54,7 @@ struct Frame {
   float texelsPerMetre = 0;               // of shadow maps
   float scale = 1;                        // scene pixels per pixel of a picture of 720 lines
   bool groundDrawn = false;
-  std::vector<Ball> balls;  // around all bodies and surfaces
+  std::vector<Ball> balls;  // around all instances, in their order, and surfaces
 
   float depthOf(const Vec3f& point) const { return ahead.dot(point - eye); }
 };

@@ -40,31 +40,43 @@ namespace render {
   "}\n"                                                                       \
   "#endif\n"
 
-const char* const kBodyVertex = FRAME_BLOCK R"(
+// Of an instance, as its vertex shaders read it.
+#define INSTANCE                                                                            \
+  "layout(location = 3) in vec4 place;  // centre, half the distance of a capsule's ends\n" \
+  "layout(location = 4) in vec4 turn;   // quaternion\n"                                    \
+  "layout(location = 5) in vec4 scale;  // w: marked\n"                                     \
+  "layout(location = 6) in vec4 tint;   // linear\n"                                        \
+  "vec3 turned(vec3 p) { return p + 2.0 * cross(turn.xyz, cross(turn.xyz, p) + turn.w * p); }\n"
+
+// Where a point of the world goes, in the picture or, of a caster, in the shadow map; what is below
+// the ground goes nowhere.
+#define PROJECTED                                                       \
+  "out float gl_ClipDistance[1];\n"                                     \
+  "void project(vec3 world) {\n"                                        \
+  "  gl_ClipDistance[0] = ground.y > 0.0 ? world.y - ground.x : 1.0;\n" \
+  "#ifdef CASTER\n"                                                     \
+  "  vec3 inShadow = (toShadow * vec4(world, 1.0)).xyz;\n"              \
+  "  gl_Position = vec4(2.0 * inShadow - 1.0, 1.0);\n"                  \
+  "#else\n"                                                             \
+  "  gl_Position = toClip * vec4(world, 1.0);\n"                        \
+  "#endif\n"                                                            \
+  "}\n"
+
+const char* const kBodyVertex = FRAME_BLOCK INSTANCE PROJECTED R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 edge;
-layout(location = 3) in vec4 place;  // centre
-layout(location = 4) in vec4 turn;   // quaternion
-layout(location = 5) in vec4 scale;  // w: marked
-layout(location = 6) in vec4 tint;   // linear
-out float gl_ClipDistance[1];
 #ifndef CASTER
 out vec3 vWorld, vNormal, vBody, vInShadow;
 out vec2 vEdge;
 flat out vec4 vTint;
 flat out float vMarked;
 #endif
-vec3 turned(vec3 p) { return p + 2.0 * cross(turn.xyz, cross(turn.xyz, p) + turn.w * p); }
 void main() {
   vec3 body = position * scale.xyz;
   vec3 world = place.xyz + turned(body);
-  gl_ClipDistance[0] = ground.y > 0.0 ? world.y - ground.x : 1.0;
-#ifdef CASTER
-  vec3 inShadow = (toShadow * vec4(world, 1.0)).xyz;
-  gl_Position = vec4(2.0 * inShadow - 1.0, 1.0);
-#else
-  gl_Position = toClip * vec4(world, 1.0);
+  project(world);
+#ifndef CASTER
   vWorld = world;
   vNormal = turned(normalize(normal / max(abs(scale.xyz), vec3(1e-15))));
   vInShadow = (toShadow * vec4(world + vNormal * shadow.y, 1.0)).xyz;
@@ -79,19 +91,13 @@ void main() {
 // Of a ball, an ellipsoid or a capsule no more than the half is drawn that faces the viewer, or the
 // light, in as many facets as its outline needs. In here one radius is the unit: a body is a ball,
 // or two with a tube between them, and its outline is a circle at each end.
-const char* const kFacingVertex = FRAME_BLOCK R"(
+const char* const kFacingVertex = FRAME_BLOCK INSTANCE PROJECTED R"(
 layout(location = 0) in vec4 position;  // end, along the meridian: cosine and sine; outwards
 layout(location = 1) in vec3 meridian;  // shares of the tube's end, the middle, the outline
-layout(location = 3) in vec4 place;  // centre, half the distance of a capsule's ends
-layout(location = 4) in vec4 turn;
-layout(location = 5) in vec4 scale;
-layout(location = 6) in vec4 tint;
-out float gl_ClipDistance[1];
 #ifndef CASTER
 out vec3 vBody;
 flat out vec4 vEye, vTurn, vCenter, vHalf, vTint;
 #endif
-vec3 turned(vec3 p) { return p + 2.0 * cross(turn.xyz, cross(turn.xyz, p) + turn.w * p); }
 vec3 turnedBack(vec3 p) { return p + 2.0 * cross(turn.xyz, cross(turn.xyz, p) - turn.w * p); }
 void main() {
   vec3 radii = max(0.5 * abs(scale.xyz), vec3(1e-15));
@@ -125,12 +131,8 @@ void main() {
   on *= height < near + 1e-3 ? position.w / rim : 1.0;
   vec3 body = on + end;
   vec3 world = place.xyz + turned(body * radii);
-  gl_ClipDistance[0] = ground.y > 0.0 ? world.y - ground.x : 1.0;
-#ifdef CASTER
-  vec3 inShadow = (toShadow * vec4(world, 1.0)).xyz;
-  gl_Position = vec4(2.0 * inShadow - 1.0, 1.0);
-#else
-  gl_Position = toClip * vec4(world, 1.0);
+  project(world);
+#ifndef CASTER
   vBody = body;
   vEye = vec4(viewer, reach);
   vTurn = turn;
@@ -141,21 +143,16 @@ void main() {
 }
 )";
 
-const char* const kSurfaceVertex = FRAME_BLOCK R"(
+const char* const kSurfaceVertex = FRAME_BLOCK PROJECTED R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 cell;  // lines run through its whole numbers
-out float gl_ClipDistance[1];
 #ifndef CASTER
 out vec3 vWorld, vNormal, vCell;
 #endif
 void main() {
-  gl_ClipDistance[0] = ground.y > 0.0 ? position.y - ground.x : 1.0;
-#ifdef CASTER
-  vec3 inShadow = (toShadow * vec4(position, 1.0)).xyz;
-  gl_Position = vec4(2.0 * inShadow - 1.0, 1.0);
-#else
-  gl_Position = toClip * vec4(position, 1.0);
+  project(position);
+#ifndef CASTER
   vWorld = position;
   vNormal = normal;
   vCell = cell;

@@ -45,7 +45,7 @@ struct BackTurn {
 
   explicit BackTurn(const Vec3& turn) : theta(turn) {
     const double x = theta.squaredNorm();
-    if (x <= 1) {  // eight terms leave 1e-17
+    if (x <= 1) {  // what is left of the series is below 1e-18
       cosine = seriesOf<2>(x);
       third = seriesOf<3>(x);
       sine = 1 - x * third;
