@@ -1,8 +1,11 @@
 // Restitution: impacts in turn, on velocities, and the flight after them.
 #include "physics/motion/restitution.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "physics/base/rotation.h"
 
@@ -11,13 +14,23 @@ namespace {
 
 constexpr int kElasticSweeps = 100;  // after these, what still approaches stays together
 constexpr int kMostSweeps = 200;
-constexpr int kManifoldSweeps = 500;  // of a manifold's points, at the most
-constexpr double kSlowest = 1e-9;     // m/s: slower than this is rounding
+constexpr double kSlowest = 1e-9;  // m/s: slower than this is rounding
 
+using Vec4 = Eigen::Vector4d;
+using Mat4 = Eigen::Matrix4d;
 using PerPoint = std::array<double, Manifold::kMaxPoints>;
+
+// What an impulse of 1 along the normal at a point does to the pair.
+struct Lever {
+  Vec3 n, wa, wb;  // turns: I^-1 (r x n)
+  Vec3 na, nb;     // r x n
+  double resistance;
+};
 
 struct Impact {
   const ContactPair* pair = nullptr;
+  std::array<Lever, Manifold::kMaxPoints> levers{};  // of the points that touch
+  Mat4 gives = Mat4::Zero();  // the speed at point i of an impulse of 1 at j [1/kg]
   std::array<bool, Manifold::kMaxPoints> touches{};
   PerPoint speed{};      // v_i of each point, 0 where it does not bounce [m/s]
   PerPoint left{};       // tau of each point [s]
@@ -26,13 +39,6 @@ struct Impact {
   bool met = false;      // it is joined to an impact by bodies that touch
   bool isEarly = false;  // it was stopped on its way, and hits in a later substep
   int strikes = 0;
-};
-
-// What an impulse of 1 along the normal at a point does to the pair.
-struct Lever {
-  Vec3 n, wa, wb;  // turns: I^-1 (r x n)
-  Vec3 na, nb;     // r x n
-  double resistance;
 };
 
 Lever leverOf(const ContactPair& pair, int k, const Bodies& bodies) {
@@ -190,32 +196,58 @@ double wanted(const Impact& impact, int k, double speed, double restitution, dou
   return std::max(-restitution * (speed + early), 0.0) + rise;
 }
 
-// One hit of one pair: impulses that push only, until every point has its speed. False: nothing
-// approached.
+// For as long as the poses stand.
+void lever(Impact& impact, const Bodies& bodies) {
+  const ContactPair& pair = *impact.pair;
+  for (int k = 0; k < pair.count; ++k) {
+    if (!impact.touches[k]) continue;
+    impact.levers[k] = leverOf(pair, k, bodies);
+    for (int i = 0; i <= k; ++i) {
+      if (!impact.touches[i]) continue;
+      const Lever &p = impact.levers[i], &q = impact.levers[k];
+      impact.gives(i, k) = impact.gives(k, i) =
+          q.resistance - (q.na - p.na).dot(q.wa) - (q.nb - p.nb).dot(q.wb);
+    }
+  }
+}
+
+// Impulses that push only and leave no point slower than it shall be, and none faster that is
+// pushed: of the sets of points that may push, the one that is wrong by the least. A pair has one
+// normal: whatever many points give, three can give.
+Vec4 impulsesOf(const Impact& impact, const Vec4& missing) {
+  Vec4 best = Vec4::Zero();
+  double least = std::numeric_limits<double>::infinity();  // what best is wrong by [m/s]
+  for (unsigned set = 1; set < 1U << impact.pair->count && least > 0.01 * kSlowest; ++set) {
+    if (std::popcount(set) > 3) continue;
+    Vec4 in = Vec4::Zero();
+    for (int k = 0; k < impact.pair->count; ++k) in[k] = impact.touches[k] && (set >> k & 1U);
+    Mat4 gives = in.asDiagonal() * impact.gives * in.asDiagonal();
+    gives.diagonal() += Vec4::Ones() - in;
+    const Vec4 impulses = gives.ldlt().solve(in.cwiseProduct(missing)).cwiseMax(0);
+    const Vec4 left = missing - impact.gives * impulses;
+    const double wrong = std::max(left.maxCoeff(), in.cwiseProduct(left).cwiseAbs().maxCoeff());
+    if (!(wrong < least)) continue;
+    least = wrong;
+    best = impulses;
+  }
+  return best;
+}
+
+// One hit of one pair. False: nothing approached.
 bool strike(Impact& impact, Bodies& bodies, double restitution, double threshold, double rise) {
   const ContactPair& pair = *impact.pair;
-  std::array<Lever, Manifold::kMaxPoints> levers;
-  PerPoint target{}, total{};
+  Vec4 missing = Vec4::Zero();  // speeds [m/s]
   bool approaches = false;
   for (int k = 0; k < pair.count; ++k) {
-    levers[k] = leverOf(pair, k, bodies);
-    const double speed = speedAt(pair, levers[k], bodies);
-    approaches = approaches || (impact.touches[k] && speed < -kSlowest);
-    target[k] = wanted(impact, k, speed, restitution, threshold, rise);
+    if (!impact.touches[k]) continue;
+    const double speed = speedAt(pair, impact.levers[k], bodies);
+    approaches = approaches || speed < -kSlowest;
+    missing[k] = wanted(impact, k, speed, restitution, threshold, rise) - speed;
   }
   if (!approaches) return false;
-  for (int sweep = 0; sweep < kManifoldSweeps; ++sweep) {
-    double most = 0;  // change of speed at a point [m/s]
-    for (int k = 0; k < pair.count; ++k) {
-      if (!impact.touches[k] || !(levers[k].resistance > 1e-300)) continue;
-      const double missing = target[k] - speedAt(pair, levers[k], bodies);
-      const double next = std::max(total[k] + missing / levers[k].resistance, 0.0);
-      push(pair, levers[k], next - total[k], bodies);
-      most = std::max(most, std::abs(next - total[k]) * levers[k].resistance);
-      total[k] = next;
-    }
-    if (most < 0.01 * kSlowest) break;
-  }
+  const Vec4 impulses = impulsesOf(impact, missing);
+  for (int k = 0; k < pair.count; ++k)
+    if (impulses[k] > 0) push(pair, impact.levers[k], impulses[k], bodies);
   ++impact.strikes;
   return true;
 }
@@ -265,12 +297,14 @@ bool strikeAlone(Impact& impact, int k, const std::vector<Given>& given, Bodies&
   const double tau = impact.left[k], gap = (-restitution * impact.speed[k] + 0.5 * a * tau) * tau;
   if (!(gap > 0)) return false;
   for (const BodyId body : {pair.a, pair.b}) undo(given[body], bodies, body, flight);
+  lever(impact, bodies);
   strike(impact, bodies, restitution, threshold, a * tau);
   flyOn(impact, k, gap, bodies);
   return true;
 }
 
 void strikeInTurn(std::vector<Impact>& impacts, Bodies& bodies, double threshold) {
+  for (Impact& impact : impacts) lever(impact, bodies);
   bool struck = !impacts.empty();
   for (int sweep = 0; struck && sweep < kMostSweeps; ++sweep) {
     struck = false;
