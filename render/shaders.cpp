@@ -11,7 +11,25 @@ namespace render {
   "  vec4 shadow, shadowOfGround, pixels, keyColor;\n"                      \
   "  mat4 toLights[4];\n"                                                   \
   "  vec4 towardSky[3];\n"                                                  \
-  "};\n"
+  "} frame;\n"
+
+// Of the frame, as fragments read it. llvmpipe fetches a uniform once for each of eight pixels,
+// and what is flat once for all.
+#define HANDED(way)                                             \
+  "flat " way                                                   \
+  " vec4 eye, towardLight, ground, shadow, pixels, keyColor;\n" \
+  "flat " way " mat4x3 toShadow;\n"
+#define HAND_ON                            \
+  HANDED("out")                            \
+  "void handOn() {\n"                      \
+  "  eye = frame.eye;\n"                   \
+  "  towardLight = frame.towardLight;\n"   \
+  "  ground = frame.ground;\n"             \
+  "  shadow = frame.shadow;\n"             \
+  "  pixels = frame.pixels;\n"             \
+  "  keyColor = frame.keyColor;\n"         \
+  "  toShadow = mat4x3(frame.toShadow);\n" \
+  "}\n"
 
 // Of an exposure: the key light and three points of the sky have a tile each of one map of depths.
 // What lies beyond a tile is lit. A caster takes less of the sky the farther it is: single far ones
@@ -20,7 +38,7 @@ namespace render {
   "#ifdef EXPOSED\n"                                                          \
   "uniform sampler2D lights;\n"                                               \
   "float behind(int light, vec3 at) {  // the caster, in depths of the map\n" \
-  "  vec3 p = (toLights[light] * vec4(at, 1.0)).xyz;\n"                       \
+  "  vec3 p = (frame.toLights[light] * vec4(at, 1.0)).xyz;\n"                 \
   "  vec2 middle = abs(p.xy - 0.5);\n"                                        \
   "  if (max(middle.x, middle.y) > 0.499) return 0.0;\n"                      \
   "  vec2 tile = 0.5 * vec2(light & 1, light >> 1);\n"                        \
@@ -32,7 +50,7 @@ namespace render {
   "float skyOn(vec3 n, vec3 at) {\n"                                          \
   "  float sum = 0.0;\n"                                                      \
   "  for (int i = 0; i < 3; ++i) {\n"                                         \
-  "    float share = max(dot(n, towardSky[i].xyz), 0.0);\n"                   \
+  "    float share = max(dot(n, frame.towardSky[i].xyz), 0.0);\n"             \
   "    float far = 7.0 * behind(i + 1, at);\n"                                \
   "    sum += far > 0.0 ? share * far * far / (1.0 + far * far) : share;\n"   \
   "  }\n"                                                                     \
@@ -50,19 +68,19 @@ namespace render {
 
 // Where a point of the world goes, in the picture or, of a caster, in the shadow map; what is below
 // the ground goes nowhere.
-#define PROJECTED                                                       \
-  "out float gl_ClipDistance[1];\n"                                     \
-  "void project(vec3 world) {\n"                                        \
-  "  gl_ClipDistance[0] = ground.y > 0.0 ? world.y - ground.x : 1.0;\n" \
-  "#ifdef CASTER\n"                                                     \
-  "  vec3 inShadow = (toShadow * vec4(world, 1.0)).xyz;\n"              \
-  "  gl_Position = vec4(2.0 * inShadow - 1.0, 1.0);\n"                  \
-  "#else\n"                                                             \
-  "  gl_Position = toClip * vec4(world, 1.0);\n"                        \
-  "#endif\n"                                                            \
+#define PROJECTED                                                                   \
+  "out float gl_ClipDistance[1];\n"                                                 \
+  "void project(vec3 world) {\n"                                                    \
+  "  gl_ClipDistance[0] = frame.ground.y > 0.0 ? world.y - frame.ground.x : 1.0;\n" \
+  "#ifdef CASTER\n"                                                                 \
+  "  vec3 inShadow = (frame.toShadow * vec4(world, 1.0)).xyz;\n"                    \
+  "  gl_Position = vec4(2.0 * inShadow - 1.0, 1.0);\n"                              \
+  "#else\n"                                                                         \
+  "  gl_Position = frame.toClip * vec4(world, 1.0);\n"                              \
+  "#endif\n"                                                                        \
   "}\n"
 
-const char* const kBodyVertex = FRAME_BLOCK INSTANCE PROJECTED R"(
+const char* const kBodyVertex = FRAME_BLOCK HAND_ON INSTANCE PROJECTED R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 edge;
@@ -77,9 +95,10 @@ void main() {
   vec3 world = place.xyz + turned(body);
   project(world);
 #ifndef CASTER
+  handOn();
   vWorld = world;
   vNormal = turned(normalize(normal / max(abs(scale.xyz), vec3(1e-15))));
-  vInShadow = (toShadow * vec4(world + vNormal * shadow.y, 1.0)).xyz;
+  vInShadow = (frame.toShadow * vec4(world + vNormal * frame.shadow.y, 1.0)).xyz;
   vBody = body;
   vEdge = edge;
   vTint = tint;
@@ -91,7 +110,7 @@ void main() {
 // Of a ball, an ellipsoid or a capsule no more than the half is drawn that faces the viewer, or the
 // light, in as many facets as its outline needs. In here one radius is the unit: a body is a ball,
 // or two with a tube between them, and its outline is a circle at each end.
-const char* const kFacingVertex = FRAME_BLOCK INSTANCE PROJECTED R"(
+const char* const kFacingVertex = FRAME_BLOCK HAND_ON INSTANCE PROJECTED R"(
 layout(location = 0) in vec4 position;  // end, along the meridian: cosine and sine; outwards
 layout(location = 1) in vec3 meridian;  // shares of the tube's end, the middle, the outline
 #ifndef CASTER
@@ -104,10 +123,10 @@ void main() {
   float reach = place.w / radii.y;
   vec3 end = vec3(0.0, position.x * reach, 0.0);
 #ifdef CASTER
-  vec3 toward = normalize(turnedBack(-vec3(toShadow[0].z, toShadow[1].z, toShadow[2].z)) / radii);
+  vec3 toward = normalize(turnedBack(-vec3(frame.toShadow[0].z, frame.toShadow[1].z, frame.toShadow[2].z)) / radii);
   float near = 0.0;  // of a radius, from the centre to the plane of the outline
 #else
-  vec3 viewer = turnedBack(eye.xyz - place.xyz) / radii;
+  vec3 viewer = turnedBack(frame.eye.xyz - place.xyz) / radii;
   vec3 toward = viewer - end;
   float near = min(1.0 / length(toward), 0.99);
   toward = normalize(toward);
@@ -133,6 +152,7 @@ void main() {
   vec3 world = place.xyz + turned(body * radii);
   project(world);
 #ifndef CASTER
+  handOn();
   vBody = body;
   vEye = vec4(viewer, reach);
   vTurn = turn;
@@ -143,7 +163,7 @@ void main() {
 }
 )";
 
-const char* const kSurfaceVertex = FRAME_BLOCK PROJECTED R"(
+const char* const kSurfaceVertex = FRAME_BLOCK HAND_ON PROJECTED R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 cell;  // lines run through its whole numbers
@@ -153,6 +173,7 @@ out vec3 vWorld, vNormal, vCell;
 void main() {
   project(position);
 #ifndef CASTER
+  handOn();
   vWorld = position;
   vNormal = normal;
   vCell = cell;
@@ -163,7 +184,7 @@ void main() {
 const char* const kCasterFragment = "void main() {}\n";
 
 // Key light with soft shadow, sky and floor as ambient, a little gloss, dark edges.
-const char* const kBodyFragment = FRAME_BLOCK EXPOSED R"(
+const char* const kBodyFragment = FRAME_BLOCK HANDED("in") EXPOSED R"(
 #ifndef EXPOSED
 uniform sampler2DShadow shadowMap;
 #endif
@@ -257,12 +278,12 @@ void main() {
 #ifdef SURFACE
   vec4 tint = tints[gl_FrontFacing ? 0 : 1];
   n = gl_FrontFacing ? n : -n;
-  vec3 inShadow = (toShadow * vec4(vWorld + n * shadow.y, 1.0)).xyz;
+  vec3 inShadow = toShadow * vec4(vWorld + n * shadow.y, 1.0);
   vec3 albedo = tint.rgb * (1.0 - 0.45 * lineDarkness());
   float dark = 0.0;
 #elif defined FACING
   vec4 tint = vTint;
-  vec3 inShadow = (toShadow * vec4(vWorld + n * shadow.y, 1.0)).xyz;
+  vec3 inShadow = toShadow * vec4(vWorld + n * shadow.y, 1.0);
   vec3 albedo = tint.rgb * (1.0 - 0.45 * vCenter.w * mark(hit));
   float dark = 0.0;
 #else
@@ -298,25 +319,32 @@ void main() {
 }
 )";
 
-const char* const kFloorVertex = FRAME_BLOCK R"(
+const char* const kFloorVertex = FRAME_BLOCK HAND_ON R"(
 out vec2 vAt;
 out vec2 vInShadow;
+flat out vec4 groundFade, groundColor, background, shadowOfGround;
 void main() {
+  handOn();
+  groundFade = frame.groundFade;
+  groundColor = frame.groundColor;
+  background = frame.background;
+  shadowOfGround = frame.shadowOfGround;
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  vAt = corner * groundFade.w;
-  vec3 world = vec3(groundFade.x + vAt.x, ground.x, groundFade.y + vAt.y);
-  vInShadow = (toShadow * vec4(world, 1.0)).xy;
-  gl_Position = toClip * vec4(world, 1.0);
+  vAt = corner * frame.groundFade.w;
+  vec3 world = vec3(frame.groundFade.x + vAt.x, frame.ground.x, frame.groundFade.y + vAt.y);
+  vInShadow = (frame.toShadow * vec4(world, 1.0)).xy;
+  gl_Position = frame.toClip * vec4(world, 1.0);
 }
 )";
 
 // Colours here are mixed as they are encoded: the ground is a drawing, not a lit body.
-const char* const kFloorFragment = FRAME_BLOCK EXPOSED R"(
+const char* const kFloorFragment = FRAME_BLOCK HANDED("in") EXPOSED R"(
 #ifndef EXPOSED
 uniform sampler2D sharpMask, wideMask;
 #endif
 in vec2 vAt;
 in vec2 vInShadow;
+flat in vec4 groundFade, groundColor, background, shadowOfGround;
 out vec4 color;
 
 // Coverage by lines through the whole numbers, `wide` half widths in pixels.
@@ -368,7 +396,7 @@ out vec4 color;
 void main() {
   ivec2 at = 2 * ivec2(gl_FragCoord.xy);
   vec2 uv = gl_FragCoord.xy / vec2(textureSize(source, 0) / 2);
-  float ground = dot(shadowOfGround.xyz, vec3(uv, 1.0));
+  float ground = dot(frame.shadowOfGround.xyz, vec3(uv, 1.0));
   vec2 sum = vec2(0.0);
   for (int i = 0; i < 4; ++i) {
     float depth = texelFetch(source, at + ivec2(i & 1, i >> 1), 0).r;
