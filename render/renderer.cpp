@@ -121,10 +121,10 @@ void Renderer::Impl::drawGround(const Frame& frame) const {
 void Renderer::Impl::drawBodies(const Bounds& bounds) {
   if (bounds.empty()) return;
   const bool smooth = detail.samples > 1;
-  cutTo(bounds, options.width, options.height, 1);
   glBindFramebuffer(GL_FRAMEBUFFER, bodyFramebuffer);
   glClearColor(0, 0, 0, 0);
-  glClear(GL_DEPTH_BUFFER_BIT | (smooth ? GL_COLOR_BUFFER_BIT : 0u));
+  glClear(GL_DEPTH_BUFFER_BIT | (smooth ? GL_COLOR_BUFFER_BIT : 0u));  // cut, it is a drawn quad
+  cutTo(bounds, options.width, options.height, 1);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_CLIP_DISTANCE0);
   surfaces.drawOpaque();
