@@ -1,6 +1,10 @@
 // Files that are whole or absent: written under a temporary name and renamed.
 #include "app/base/output_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -18,6 +22,25 @@ bool isInPlace(const fs::path& path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+[[noreturn]] void failToWrite(const fs::path& path, int error) {
+  throw EnvironmentError("cannot write " + path.string() + ": " +
+                         std::strerror(error != 0 ? error : EIO));
+}
+
+// Over what is there, to the same length.
+void overwrite(const fs::path& path, std::string_view bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  int error = file < 0 ? errno : 0;
+  for (std::string_view left = bytes; error == 0 && !left.empty();) {
+    const ssize_t written = ::write(file, left.data(), left.size());
+    if (written > 0) left.remove_prefix(static_cast<std::size_t>(written));
+    if (written <= 0 && errno != EINTR) error = errno;
+  }
+  if (error == 0 && ::ftruncate(file, static_cast<off_t>(bytes.size())) != 0) error = errno;
+  if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
+  if (error != 0) failToWrite(path, error);
 }
 
 }  // namespace
@@ -61,14 +84,24 @@ void OutputFile::commit() {
 
 void OutputFile::fail(int error) const {
   if (standardOutput_ && error == EPIPE) throw ReaderGone(std::strerror(error));
-  throw EnvironmentError("cannot write " + path_.string() + ": " +
-                         std::strerror(error != 0 ? error : EIO));
+  failToWrite(path_, error);
 }
 
 void writeFile(const fs::path& path, std::string_view bytes) {
   OutputFile file(path);
   file.write(bytes);
   file.commit();
+}
+
+fs::path spareOf(const fs::path& path) { return path.string() + kPartial; }
+
+void rewriteFile(const fs::path& path, std::string_view bytes) {
+  if (path.has_parent_path()) makeFolder(path.parent_path());
+  const fs::path spare = spareOf(path);
+  overwrite(spare, bytes);
+  if (::renameat2(AT_FDCWD, spare.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0) return;
+  // There is none to exchange it with, or the file system cannot.
+  if (std::rename(spare.c_str(), path.c_str()) != 0) failToWrite(path, errno);
 }
 
 void makeFolder(const fs::path& folder) {

@@ -34,6 +34,10 @@ class OutputFile {
 };
 
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
+// The same for what is written again and again: the last but one stays beside it as spareOf(path),
+// whose blocks take the next one in a third of the time.
+void rewriteFile(const std::filesystem::path& path, std::string_view bytes);
+std::filesystem::path spareOf(const std::filesystem::path& path);
 void makeFolder(const std::filesystem::path& folder);
 void removeFile(const std::filesystem::path& path);  // absent is fine
 

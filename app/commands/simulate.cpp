@@ -96,7 +96,7 @@ PlayEnd playAndRecord(scenes::Simulation& simulation, scenes::Checker& checker, 
   if (end.code != ExitCode::kInterrupted) {
     progress.finish();
   } else if (isKept) {
-    motion->checkpoint->write(members);
+    motion->checkpoint->end(members);
   }
   return end;
 }

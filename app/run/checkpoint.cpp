@@ -83,13 +83,21 @@ void Checkpoint::write(const Members& members) {
   archive(run);
   members(archive);
   bytes += hashText(bytes);
-  writeFile(file_, bytes);
+  rewriteFile(file_, bytes);
   const double took = watch.seconds();
   seconds_ += took;
   cost_ = std::min(took, 2 * cost_);
   sinceLast_ = Stopwatch();
 }
 
-void Checkpoint::remove() { removeFile(file_); }
+void Checkpoint::end(const Members& members) {
+  write(members);
+  removeFile(spareOf(file_));
+}
+
+void Checkpoint::remove() {
+  removeFile(file_);
+  removeFile(spareOf(file_));
+}
 
 }  // namespace app

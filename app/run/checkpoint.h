@@ -26,9 +26,9 @@ class Checkpoint {
   // from, or it was to keep other frames. Throws InputError where it is of a run that differs.
   std::optional<physics::Archive> open();
 
-  // After a frame: writes where it is time.
-  void pass(const Members& members);
   void write(const Members& members);
+  void pass(const Members& members);  // after a frame: writes where it is time
+  void end(const Members& members);   // of a run that is stopped
   void remove();
 
   double seconds() const { return seconds_; }  // that all writing has taken

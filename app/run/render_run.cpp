@@ -120,12 +120,12 @@ class Drawing {
           checker_.observe(simulation_);
           const scenes::Moment moment = simulation_.moment();
           motion_.motion.append(moment);
-          motion_.checkpoint->pass(members);
+          motion_.checkpoint->write(members);  // a hundredth of what drawing it takes
           include(moment);
           stepping.advance();
         },
         shown);
-    if (result_.end.code == ExitCode::kInterrupted) return motion_.checkpoint->write(members);
+    if (result_.end.code == ExitCode::kInterrupted) return motion_.checkpoint->end(members);
     result_.record.addSeconds("simulate", seconds);
     result_.record.addSeconds("checkpoint", motion_.checkpoint->seconds());
     if (fits()) stepping.finish();

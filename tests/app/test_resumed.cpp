@@ -86,6 +86,21 @@ TEST_F(Resumed, AFilmKilledAtAnyMomentEndsInTheSameBytes) {
   EXPECT_FALSE(fs::exists(folder / "killed" / "motion.npz.state"));
 }
 
+TEST_F(Resumed, AFilmStepsNoFrameAgainThatWasDrawn) {
+  const std::string command = std::string("render ") + kScene +
+                              "--set 'camera={eye=[4,3,12],target=[0,2,0]}' "
+                              "--set simulation.substeps=1000 --quality draft --size 96x54 "
+                              "--threads 1 -o killed";
+  EXPECT_EQ(runAndSignal(command, folder / "killed" / "frames" / "00001.png", SIGKILL),
+            128 + SIGKILL);
+  const auto drawn = static_cast<int>(folderBytes(folder / "killed" / "frames").size());
+  const Outcome outcome = run(command);
+  const std::string note = "goes on from frame ";
+  const std::size_t at = outcome.errors.find(note);
+  ASSERT_NE(at, std::string::npos) << outcome.errors;
+  EXPECT_GE(std::stoi(outcome.errors.substr(at + note.size())), drawn);
+}
+
 TEST_F(Resumed, AnotherRunIsRefusedAndSaysWhatDiffers) {
   stop(simulate("stopped"), "stopped", SIGKILL);
   const std::string other = simulate("stopped") + "--set contact.friction=0.1 ";
