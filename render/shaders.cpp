@@ -15,20 +15,28 @@ namespace render {
 
 // Of the frame, as fragments read it. llvmpipe fetches a uniform once for each of eight pixels,
 // and what is flat once for all.
-#define HANDED(way)                                             \
-  "flat " way                                                   \
-  " vec4 eye, towardLight, ground, shadow, pixels, keyColor;\n" \
-  "flat " way " mat4x3 toShadow;\n"
-#define HAND_ON                            \
-  HANDED("out")                            \
-  "void handOn() {\n"                      \
-  "  eye = frame.eye;\n"                   \
-  "  towardLight = frame.towardLight;\n"   \
-  "  ground = frame.ground;\n"             \
-  "  shadow = frame.shadow;\n"             \
-  "  pixels = frame.pixels;\n"             \
-  "  keyColor = frame.keyColor;\n"         \
-  "  toShadow = mat4x3(frame.toShadow);\n" \
+#define HANDED                                                        \
+  "HANDED vec4 eye, towardLight, ground, shadow, pixels, keyColor;\n" \
+  "HANDED mat4x3 toShadow;\n"                                         \
+  "#ifdef EXPOSED\n"                                                  \
+  "HANDED mat4x3 toLights[4];\n"                                      \
+  "HANDED vec3 towardSky[3];\n"                                       \
+  "#endif\n"
+#define READ_HANDED "#define HANDED flat in\n" HANDED
+#define HAND_ON                                                              \
+  "#define HANDED flat out\n" HANDED                                         \
+  "void handOn() {\n"                                                        \
+  "  eye = frame.eye;\n"                                                     \
+  "  towardLight = frame.towardLight;\n"                                     \
+  "  ground = frame.ground;\n"                                               \
+  "  shadow = frame.shadow;\n"                                               \
+  "  pixels = frame.pixels;\n"                                               \
+  "  keyColor = frame.keyColor;\n"                                           \
+  "  toShadow = mat4x3(frame.toShadow);\n"                                   \
+  "#ifdef EXPOSED\n"                                                         \
+  "  for (int i = 0; i < 4; ++i) toLights[i] = mat4x3(frame.toLights[i]);\n" \
+  "  for (int i = 0; i < 3; ++i) towardSky[i] = frame.towardSky[i].xyz;\n"   \
+  "#endif\n"                                                                 \
   "}\n"
 
 // Of an exposure: the key light and three points of the sky have a tile each of one map of depths.
@@ -38,7 +46,7 @@ namespace render {
   "#ifdef EXPOSED\n"                                                          \
   "uniform sampler2D lights;\n"                                               \
   "float behind(int light, vec3 at) {  // the caster, in depths of the map\n" \
-  "  vec3 p = (frame.toLights[light] * vec4(at, 1.0)).xyz;\n"                 \
+  "  vec3 p = toLights[light] * vec4(at, 1.0);\n"                             \
   "  vec2 middle = abs(p.xy - 0.5);\n"                                        \
   "  if (max(middle.x, middle.y) > 0.499) return 0.0;\n"                      \
   "  vec2 tile = 0.5 * vec2(light & 1, light >> 1);\n"                        \
@@ -50,7 +58,7 @@ namespace render {
   "float skyOn(vec3 n, vec3 at) {\n"                                          \
   "  float sum = 0.0;\n"                                                      \
   "  for (int i = 0; i < 3; ++i) {\n"                                         \
-  "    float share = max(dot(n, frame.towardSky[i].xyz), 0.0);\n"             \
+  "    float share = max(dot(n, towardSky[i]), 0.0);\n"                       \
   "    float far = 7.0 * behind(i + 1, at);\n"                                \
   "    sum += far > 0.0 ? share * far * far / (1.0 + far * far) : share;\n"   \
   "  }\n"                                                                     \
@@ -184,7 +192,7 @@ void main() {
 const char* const kCasterFragment = "void main() {}\n";
 
 // Key light with soft shadow, sky and floor as ambient, a little gloss, dark edges.
-const char* const kBodyFragment = FRAME_BLOCK HANDED("in") EXPOSED R"(
+const char* const kBodyFragment = READ_HANDED EXPOSED R"(
 #ifndef EXPOSED
 uniform sampler2DShadow shadowMap;
 #endif
@@ -338,7 +346,7 @@ void main() {
 )";
 
 // Colours here are mixed as they are encoded: the ground is a drawing, not a lit body.
-const char* const kFloorFragment = FRAME_BLOCK HANDED("in") EXPOSED R"(
+const char* const kFloorFragment = READ_HANDED EXPOSED R"(
 #ifndef EXPOSED
 uniform sampler2D sharpMask, wideMask;
 #endif
