@@ -2,6 +2,7 @@
 #include "physics/accurate/step_choice.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics/base/archive.h"
 
@@ -10,7 +11,9 @@ namespace {
 
 constexpr double kSafety = 0.9;                        // of the step that would just do
 constexpr double kLeastChange = 0.1, kMostChange = 4;  // of a step, from one to the next
-constexpr double kFailed = 0.25;
+// A step that cannot be solved, however short it is for its accuracy, bounds those that follow; the
+// bound goes up with each one that can be.
+constexpr double kFailed = 0.7, kRegained = 1.03;
 constexpr double kPays = 0.9;  // another order does where it takes so much of the work
 
 int workOf(int columns) { return columns * (columns + 1) / 2; }
@@ -32,12 +35,14 @@ double rootOf(double x, int n) {
   return scale * root;
 }
 
-void StepChoice::archive(Archive& a) { a(columns_, wanted_); }
+// In so many steps of equal length.
+double StepChoice::stepsIn(double time, double wanted) { return std::ceil(time / wanted); }
+
+void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_); }
 
 double StepChoice::next(double left, double time) {
   if (!(wanted_ > 0)) wanted_ = time;
-  if (wanted_ >= left) return left;
-  return std::min(wanted_, 0.5 * left);
+  return left / stepsIn(left, wanted_);
 }
 
 double StepChoice::stepFor(double step, double error, int columns, double allowed) const {
@@ -48,26 +53,31 @@ double StepChoice::stepFor(double step, double error, int columns, double allowe
 }
 
 void StepChoice::reject(double step, double error, double allowed) {
-  const bool isKnown = error < 1e300;
-  wanted_ =
-      isKnown ? std::min(stepFor(step, error, columns_, allowed), 0.7 * step) : kFailed * step;
+  if (error < 1e300) {
+    wanted_ = std::min(stepFor(step, error, columns_, allowed), 0.7 * step);
+  } else {
+    wanted_ = bound_ = kFailed * step;
+  }
 }
 
 void StepChoice::accept(double step, double error, double coarser, double allowed, double time) {
-  const auto rate = [&](double of, int columns) { return workOf(columns) / std::min(of, time); };
-  const double here = stepFor(step, error, columns_, allowed);
-  const double less = columns_ > least_ ? stepFor(step, coarser, columns_ - 1, allowed) : 0;
-  double next = here;
-  if (columns_ > least_ && rate(less, columns_ - 1) < kPays * rate(here, columns_)) {
+  bound_ *= kRegained;
+  const auto bounded = [&](double of) { return std::min(of, bound_); };
+  const auto work = [&](double of, int columns) { return workOf(columns) * stepsIn(time, of); };
+  const double here = bounded(stepFor(step, error, columns_, allowed));
+  const double less =
+      columns_ > least_ ? bounded(stepFor(step, coarser, columns_ - 1, allowed)) : 0;
+  if (columns_ > least_ && work(less, columns_ - 1) < kPays * work(here, columns_)) {
     --columns_;
-    next = less;
-  } else if (columns_ < most_ && here < time &&
-             (columns_ == least_ || rate(here, columns_) < kPays * rate(less, columns_ - 1))) {
-    next = here * workOf(columns_ + 1) / workOf(columns_);
+    wanted_ = less;
+  } else if (columns_ < most_ && here < bounded(time) &&
+             (columns_ == least_ || work(here, columns_) < kPays * work(less, columns_ - 1))) {
+    wanted_ = bounded(here * workOf(columns_ + 1) / workOf(columns_));
     ++columns_;
+  } else {
+    const bool isTrimmed = step < wanted_ && here > step;
+    wanted_ = isTrimmed ? std::max(here, wanted_) : here;
   }
-  const bool isTrimmed = step < wanted_ && next > step;
-  wanted_ = isTrimmed ? std::max(next, wanted_) : next;
 }
 
 }  // namespace physics

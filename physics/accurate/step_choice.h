@@ -3,6 +3,8 @@
 // Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9.
 #pragma once
 
+#include <limits>
+
 namespace physics {
 
 class Archive;
@@ -25,13 +27,18 @@ class StepChoice {
   void reject(double step, double error, double allowed);
   // `coarser`: the error of one column less.
   void accept(double step, double error, double coarser, double allowed, double time);
-  void forget() { wanted_ = 0; }
+  void forget() {
+    wanted_ = 0;
+    bound_ = std::numeric_limits<double>::infinity();
+  }
   void archive(Archive& a);
 
  private:
+  static double stepsIn(double time, double wanted);
   double stepFor(double step, double error, int columns, double allowed) const;
   int power_, least_, most_, columns_;
-  double wanted_ = 0;  // [s]; 0: not known
+  double wanted_ = 0;                                       // [s]; 0: not known
+  double bound_ = std::numeric_limits<double>::infinity();  // longer ones failed [s]
 };
 
 // The n-th root of 0 < x, the same on every machine.
