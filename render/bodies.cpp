@@ -11,7 +11,7 @@ namespace render {
 namespace {
 
 // Segments around a round body, by level of detail, in fours. A silhouette of n segments is off by
-// 2.5 r / n^2 pixels, so each level serves radii up to n^2 / 25 pixels with an error of a tenth.
+// 2.5 r / n^2 pixels, so each level serves radii up to n^2 / 12.5 pixels with an error of a fifth.
 // Small triangles cost most of a picture: a level more is a few kilobytes.
 constexpr std::array kSegments = {8, 12, 16, 20, 24, 28, 32, 40, 48, 64, 96, 128};
 constexpr std::size_t kLevels = kSegments.size();
@@ -20,7 +20,7 @@ constexpr std::size_t kFirstMesh = 1 + 3 * kLevels;
 std::size_t levelFor(float radiusInPixels) {
   std::size_t level = 0;
   while (level + 1 < kLevels &&
-         radiusInPixels > static_cast<float>(kSegments[level] * kSegments[level]) / 25)
+         radiusInPixels > static_cast<float>(kSegments[level] * kSegments[level]) / 12.5f)
     ++level;
   return level;
 }
@@ -171,14 +171,14 @@ void Bodies::fillBatches(const Picture& picture) {
   }
 }
 
-// As fine as a texel of the map shows.
+// Half as fine as the pictures: shadows are filtered over two texels.
 void Bodies::findCasters(const Picture& picture, const Frame& frame) {
   casters_.clear();
   if (!picture.light.shadows) return;
   for (const Instance& instance : picture.instances) {
     if (instance.color.w() < 0.5f) continue;
     const InstanceData data = dataOf(instance);
-    const std::size_t shape = shapeOf(instance, frame.texelsPerMetre * roundingOf(instance));
+    const std::size_t shape = shapeOf(instance, 0.5f * frame.texelsPerMetre * roundingOf(instance));
     casters_.push_back({shape, shapes_[shape].upload, data.place, data.turn, data.scale});
   }
 }
