@@ -118,6 +118,7 @@ std::vector<Pose> after(World& world, double seconds, AccuracyReport* sum = null
     const AccuracyReport of = world.step().accuracy;
     if (sum == nullptr) continue;
     sum->accepted += of.accepted;
+    sum->rejected += of.rejected;
     sum->order = std::max(sum->order, of.order);
     sum->estimate += of.estimate;
   }
@@ -374,6 +375,28 @@ TEST(Accuracy, TakesLargeStepsThroughAStrongDamper) {
   EXPECT_LT((asked - exact).norm(), 1e-3 * 0.2);
   EXPECT_LT(few, 30 * 10);  // 30 frames; to resolve the damper would take some 10^4
   EXPECT_GT(few, 0);
+}
+
+// A top of 200 rad/s about a fixed point, of which steps longer than a radian cannot be solved,
+// however roughly it is asked for: they are not tried again and again.
+TEST(Accuracy, RemembersWhichStepsFail) {
+  World world(asking(1e-1));
+  BodyDef def;
+  def.shape = Cylinder{0.06, 0.02};
+  def.inertia = Vec3(0.01, 0.01, 0.01);
+  const Vec3 axis(0.5, std::sqrt(0.75), 0);
+  def.pose = {0.1 * axis, Quat::FromTwoVectors(Vec3::UnitY(), axis)};
+  def.velocity.w = 200 * axis;
+  const BodyId top = world.add(def);
+  BallSocketDef joint;
+  joint.bodies = {kWorldBody, top};
+  joint.anchors = {Vec3::Zero(), Vec3(0, -0.1, 0)};
+  world.add(joint);
+  AccuracyReport report;
+  after(world, 1, &report);
+  std::printf("%d steps, %d tried in vain\n", report.accepted, report.rejected);
+  EXPECT_GT(report.accepted, 60);
+  EXPECT_LT(report.rejected, report.accepted / 5);
 }
 
 // What rests is left as the default leaves it.
