@@ -2,7 +2,6 @@
 #include "physics/accurate/step_choice.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "physics/base/archive.h"
 
@@ -13,7 +12,7 @@ constexpr double kSafety = 0.9;                        // of the step that would
 constexpr double kLeastChange = 0.1, kMostChange = 4;  // of a step, from one to the next
 // A step that cannot be solved, however short it is for its accuracy, bounds those that follow; the
 // bound goes up with each one that can be.
-constexpr double kFailed = 0.7, kRegained = 1.03;
+constexpr double kFailed = 0.5, kRegained = 1.05;
 constexpr double kPays = 0.9;  // another order does where it takes so much of the work
 
 int workOf(int columns) { return columns * (columns + 1) / 2; }
@@ -35,14 +34,12 @@ double rootOf(double x, int n) {
   return scale * root;
 }
 
-// In so many steps of equal length.
-double StepChoice::stepsIn(double time, double wanted) { return std::ceil(time / wanted); }
-
 void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_); }
 
 double StepChoice::next(double left, double time) {
   if (!(wanted_ > 0)) wanted_ = time;
-  return left / stepsIn(left, wanted_);
+  if (wanted_ >= left) return left;
+  return std::min(wanted_, 0.5 * left);
 }
 
 double StepChoice::stepFor(double step, double error, int columns, double allowed) const {
@@ -63,21 +60,23 @@ void StepChoice::reject(double step, double error, double allowed) {
 void StepChoice::accept(double step, double error, double coarser, double allowed, double time) {
   bound_ *= kRegained;
   const auto bounded = [&](double of) { return std::min(of, bound_); };
-  const auto work = [&](double of, int columns) { return workOf(columns) * stepsIn(time, of); };
+  const auto work = [&](double of, int columns) { return workOf(columns) / std::min(of, time); };
   const double here = bounded(stepFor(step, error, columns_, allowed));
   const double less =
       columns_ > least_ ? bounded(stepFor(step, coarser, columns_ - 1, allowed)) : 0;
+  double next = here;
   if (columns_ > least_ && work(less, columns_ - 1) < kPays * work(here, columns_)) {
     --columns_;
-    wanted_ = less;
+    next = less;
   } else if (columns_ < most_ && here < bounded(time) &&
              (columns_ == least_ || work(here, columns_) < kPays * work(less, columns_ - 1))) {
-    wanted_ = bounded(here * workOf(columns_ + 1) / workOf(columns_));
+    next = bounded(here * workOf(columns_ + 1) / workOf(columns_));
     ++columns_;
-  } else {
-    const bool isTrimmed = step < wanted_ && here > step;
-    wanted_ = isTrimmed ? std::max(here, wanted_) : here;
   }
+  // One that was cut short tells little of longer ones: these were known before.
+  const bool isTrimmed = step < wanted_ && next > step;
+  const double known = isTrimmed ? wanted_ * std::min(next / here, 1.0) : 0;
+  wanted_ = bounded(std::max(next, known));
 }
 
 }  // namespace physics

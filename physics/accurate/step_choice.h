@@ -34,7 +34,6 @@ class StepChoice {
   void archive(Archive& a);
 
  private:
-  static double stepsIn(double time, double wanted);
   double stepFor(double step, double error, int columns, double allowed) const;
   int power_, least_, most_, columns_;
   double wanted_ = 0;                                       // [s]; 0: not known
