@@ -11,17 +11,22 @@ namespace render {
 namespace {
 
 // Segments around a round body, by level of detail, in fours. A silhouette of n segments is off by
-// 2.5 r / n^2 pixels, so each level serves radii up to n^2 / 12.5 pixels with an error of a fifth.
-// Small triangles cost most of a picture: a level more is a few kilobytes.
+// 2.5 r / n^2 pixels. Small triangles cost most of a picture: a level more is a few kilobytes.
 constexpr std::array kSegments = {8, 12, 16, 20, 24, 28, 32, 40, 48, 64, 96, 128};
 constexpr std::size_t kLevels = kSegments.size();
 constexpr std::size_t kFirstMesh = 1 + 3 * kLevels;
 
+// The radius that a level serves, in pixels. Its outline is off by a tenth of one; of small bodies,
+// whose triangles would cost more than what they show, by a fifth.
+float reachOf(std::size_t level) {
+  constexpr int kSmall = 16;  // segments: a radius of 20 pixels
+  const auto square = static_cast<float>(kSegments[level] * kSegments[level]);
+  return square / (kSegments[level] <= kSmall ? 12.5f : 25);
+}
+
 std::size_t levelFor(float radiusInPixels) {
   std::size_t level = 0;
-  while (level + 1 < kLevels &&
-         radiusInPixels > static_cast<float>(kSegments[level] * kSegments[level]) / 12.5f)
-    ++level;
+  while (level + 1 < kLevels && radiusInPixels > reachOf(level)) ++level;
   return level;
 }
 

@@ -99,15 +99,28 @@ std::vector<Vec3> meshPoints(const std::string& path) {
 
 namespace {
 
+// Corners of a hull, of which a hull can be made again.
+std::vector<Vec3> cornersOf(const std::vector<Vec3>& points) {
+  const physics::PrincipalHull hull = physics::makeHull(points);
+  std::vector<Vec3> corners;
+  for (const Vec3& vertex : hull.hull->vertices) {
+    corners.push_back(hull.toPoints.x + hull.toPoints.q * vertex);
+  }
+  physics::makeHull(corners);
+  return corners;
+}
+
+}  // namespace
+
 // Where points nearly coincide a hull may not close: they are rounded to as little of their size as
 // it takes.
-physics::PrincipalHull hullOf(const std::vector<Vec3>& points) {
+std::vector<Vec3> hullCorners(const std::vector<Vec3>& points) {
   double size = 0;
   for (const Vec3& point : points) size = std::max(size, point.cwiseAbs().maxCoeff());
   std::vector<Vec3> rounded = points;
   for (const double part : {1e-6, 1e-5, 1e-4}) {
     try {
-      return physics::makeHull(rounded);
+      return cornersOf(rounded);
     } catch (const std::invalid_argument&) {
       const double cell = part * size;
       if (!(cell > 0)) throw;
@@ -116,18 +129,7 @@ physics::PrincipalHull hullOf(const std::vector<Vec3>& points) {
       }
     }
   }
-  return physics::makeHull(rounded);
-}
-
-}  // namespace
-
-std::vector<Vec3> hullCorners(const std::vector<Vec3>& points) {
-  const physics::PrincipalHull hull = hullOf(points);
-  std::vector<Vec3> corners;
-  for (const Vec3& vertex : hull.hull->vertices) {
-    corners.push_back(hull.toPoints.x + hull.toPoints.q * vertex);
-  }
-  return corners;
+  return cornersOf(rounded);
 }
 
 }  // namespace scenes

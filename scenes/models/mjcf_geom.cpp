@@ -79,11 +79,11 @@ std::vector<Vec3> ellipsoid(const Vec3& radii) {
       }
     }
   }
-  for (Vec3& point : points) point = point.normalized().cwiseProduct(radii);
+  for (Vec3& point : points) point.normalize();
   const double inside =
       physics::massProperties(physics::Convex{physics::makeHull(points).hull}).volume;
-  const double grow = std::cbrt(4 * M_PI / 3 * radii.prod() / inside);
-  for (Vec3& point : points) point *= grow;
+  const double grow = std::cbrt(4 * M_PI / 3 / inside);
+  for (Vec3& point : points) point = grow * point.cwiseProduct(radii);
   return points;
 }
 

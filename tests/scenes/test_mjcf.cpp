@@ -224,6 +224,9 @@ TEST(Mjcf, RefusesWithTheLineAndWhatIsWanted) {
   EXPECT_EQ(modelError(world("<body name='a'><joint/></body>")),
             "m.xml:3:2: body 'a' moves: expected a mass > 0, of its own or of its shapes");
   EXPECT_EQ(modelError(world("<geom type='mesh' mesh='x'/>")), "m.xml:3:2: <geom>: no mesh 'x'");
+  EXPECT_EQ(modelError(world("<geom type='ellipsoid' size='9e18 .1 .1'/>")),
+            "m.xml:3:2: <geom>: convex hull: the points lie in one plane, on one line or in one "
+            "point");
   EXPECT_EQ(modelError(mujoco("<worldbody")),
             "m.xml:3:1: expected XML: Error parsing start element tag");
   EXPECT_EQ(modelError("<html/>"),
