@@ -128,6 +128,11 @@ TEST_F(Take, APlayerDrawsAndPlaysInABrowserAndHasTheMotion) {
   if (!isThere("chromium")) GTEST_SKIP() << "no chromium to open it with";
   ASSERT_EQ(run("simulate drop.toml --player p.html --trajectory t.csv").code, 0);
   std::string page = readBytes(folder / "p.html");
+  // A browser without a screen gives few frames in its virtual seconds, by chance three: its timers
+  // call for them instead.
+  page.replace(page.find("<body"), 0,
+               "<script>window.requestAnimationFrame = (next) => "
+               "setTimeout(() => next(performance.now()), 16);</script>");
   const std::string asking =
       "<script>setTimeout(() => { const take = window.player.take, p = "
       "take.names.indexOf('ball');"
@@ -136,7 +141,7 @@ TEST_F(Take, APlayerDrawsAndPlaysInABrowserAndHasTheMotion) {
   writeText(folder / "asked.html", page);
   const std::string told = browse("--dump-dom 'asked.html'");
   EXPECT_EQ(toldOf(told, "state"), "ready");
-  EXPECT_GT(numberIn(toldOf(told, "drawn")), 3);
+  EXPECT_GT(numberIn(toldOf(told, "drawn")), 20);
   // 16 bits over the 0.5 m that it falls: half a step is 4e-6 m.
   EXPECT_NEAR(numberIn(toldOf(told, "height")), placeOf(folder / "t.csv", "ball", 15)[1], 4e-6);
 }
