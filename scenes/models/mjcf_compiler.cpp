@@ -56,7 +56,7 @@ Quat orientationOf(const Tag& tag, const MjcfCompiler& compiler) {
   if (!axes.empty()) return fromAxes(tag, axes);
   if (!z.empty()) {
     const Vec3 n = directionOf(tag, "zaxis", {z[0], z[1], z[2]});
-    return Quat::FromTwoVectors(Vec3::UnitZ(), n);
+    return physics::turnBetween(Vec3::UnitZ(), n);
   }
   if (!euler.empty()) {
     return fromEuler(compiler.angle * Vec3(euler[0], euler[1], euler[2]), compiler.eulerSequence);

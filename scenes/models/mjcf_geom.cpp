@@ -105,7 +105,7 @@ std::vector<double> longSize(const Tag& tag, ModelPart& part, std::size_t count)
   const Vec3 a(ends[0], ends[1], ends[2]), b(ends[3], ends[4], ends[5]);
   const double length = (b - a).norm();
   if (!(length > 1e-12)) tag.fail("fromto: expected two points that differ");
-  part.pose = {(a + b) / 2, Quat::FromTwoVectors(Vec3::UnitZ(), (b - a) / length)};
+  part.pose = {(a + b) / 2, physics::turnBetween(Vec3::UnitZ(), (b - a) / length)};
   const double radius = sizeOf(tag, 1)[0];
   return count == 2 ? std::vector{radius, length / 2} : std::vector{radius, radius, length / 2};
 }
