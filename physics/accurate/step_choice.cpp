@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kSafety = 0.9;                        // of the step that would just do
 constexpr double kLeastChange = 0.1, kMostChange = 4;  // of a step, from one to the next
-// A step that cannot be solved, however short it is for its accuracy, bounds those that follow; the
-// bound goes up with each one that can be.
+// A step that cannot be solved, however short it is for its accuracy, bounds those that follow by
+// half of it; the bound goes up with each one that can be, and is where it was after 14 of them.
 constexpr double kFailed = 0.5, kRegained = 1.05;
 constexpr double kPays = 0.9;  // another order does where it takes so much of the work
 
@@ -64,19 +64,19 @@ void StepChoice::accept(double step, double error, double coarser, double allowe
   const double here = bounded(stepFor(step, error, columns_, allowed));
   const double less =
       columns_ > least_ ? bounded(stepFor(step, coarser, columns_ - 1, allowed)) : 0;
-  double next = here;
+  double chosen = here;
   if (columns_ > least_ && work(less, columns_ - 1) < kPays * work(here, columns_)) {
     --columns_;
-    next = less;
+    chosen = less;
   } else if (columns_ < most_ && here < bounded(time) &&
              (columns_ == least_ || work(here, columns_) < kPays * work(less, columns_ - 1))) {
-    next = bounded(here * workOf(columns_ + 1) / workOf(columns_));
+    chosen = here * workOf(columns_ + 1) / workOf(columns_);
     ++columns_;
   }
   // One that was cut short tells little of longer ones: these were known before.
-  const bool isTrimmed = step < wanted_ && next > step;
-  const double known = isTrimmed ? wanted_ * std::min(next / here, 1.0) : 0;
-  wanted_ = bounded(std::max(next, known));
+  const bool isTrimmed = step < wanted_ && chosen > step;
+  const double known = isTrimmed ? wanted_ * std::min(chosen / here, 1.0) : 0;
+  wanted_ = bounded(std::max(chosen, known));
 }
 
 }  // namespace physics
