@@ -82,9 +82,11 @@ Quat exponential(const Vec3& theta) {
   const double squared = theta.squaredNorm();
   double cosine, halfSinc;  // cos(|theta|/2), sin(|theta|/2)/|theta|
   if (squared < kSmallAngleSquared) {
+    constexpr double k2 = 1 / 2.0, k12 = 1 / 12.0, k30 = 1 / 30.0, k56 = 1 / 56.0, k90 = 1 / 90.0,
+                     k6 = 1 / 6.0, k20 = 1 / 20.0, k42 = 1 / 42.0, k72 = 1 / 72.0;
     const double t = 0.25 * squared;
-    cosine = 1 - t / 2 * (1 - t / 12 * (1 - t / 30 * (1 - t / 56 * (1 - t / 90))));
-    halfSinc = 0.5 * (1 - t / 6 * (1 - t / 20 * (1 - t / 42 * (1 - t / 72))));
+    cosine = 1 - t * k2 * (1 - t * k12 * (1 - t * k30 * (1 - t * k56 * (1 - t * k90))));
+    halfSinc = 0.5 * (1 - t * k6 * (1 - t * k20 * (1 - t * k42 * (1 - t * k72))));
   } else {
     const double angle = std::sqrt(squared);
     const SineCosine half = sineCosine(0.5 * angle);

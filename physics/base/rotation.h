@@ -33,6 +33,10 @@ inline void displace(Pose& pose, const Vec3& dx, const Vec3& dtheta) {
   pose.q = exponential(dtheta) * pose.q;
 }
 
+// A unit quaternion that rounding has left: right to the square of what it is off by, without a
+// root.
+inline void renormalize(Quat& q) { q.coeffs() *= 1.5 - 0.5 * q.squaredNorm(); }
+
 // The shortest turn that takes the direction of `from` to that of `to`.
 Quat turnBetween(const Vec3& from, const Vec3& to);
 

@@ -12,8 +12,8 @@ inline void archive(Archive& a, ContactPoint& point) {
 }
 
 inline void archive(Archive& to, Manifold& manifold) {
-  auto& [a, b, radial, carried, pair, normal, count, isNew, points] = manifold;
-  to(a, b, radial, carried, pair, normal, count, isNew);
+  auto& [a, b, radial, carried, pair, normal, count, points] = manifold;
+  to(a, b, radial, carried, pair, normal, count);
   to.first(count, points);
 }
 

@@ -41,8 +41,8 @@ double approach(const Item& a, const Item& b) {
 
 struct Collider::Impl {
   Pairs pairs;
-  std::vector<Manifold> manifolds;  // the result; it keeps what has not changed
-  std::vector<int> sources;         // the finding that each was copied from
+  std::vector<Found> found;         // the result
+  std::vector<Manifold> manifolds;  // and copies of it, where find() was asked
   std::int64_t narrowPhaseCalls = 0;
 
   struct Step {
@@ -185,7 +185,8 @@ struct Collider::Impl {
     constexpr std::size_t kAhead = 8, kLine = 64;
     const std::vector<Watch>& watches = pairs.watches();
     const auto fetch = [](const void* from, std::size_t bytes) {
-      for (std::size_t i = 0; i < bytes; i += kLine) {
+      const std::size_t before = reinterpret_cast<std::uintptr_t>(from) % kLine;
+      for (std::size_t i = 0; i < before + bytes; i += kLine) {
         __builtin_prefetch(static_cast<const char*>(from) + i);
       }
     };
@@ -204,29 +205,15 @@ struct Collider::Impl {
     }
   }
 
-  void take(const Manifold& manifold, const Watch& watch, std::size_t place) {
-    if (place == sources.size()) {
-      sources.push_back(-1);
-      manifolds.emplace_back();
-    }
-    if (watch.isNew || sources[place] != watch.finding) manifolds[place] = manifold;
-    manifolds[place].isNew = watch.isNew;
-    sources[place] = watch.finding;
-  }
-
   void gather() {
-    std::size_t count = 0;
+    found.clear();
     for (const Watch& watch : pairs.watches()) {
       narrowPhaseCalls += watch.calls;
       if (watch.count == 0) continue;
-      take(pairs.finding(watch).manifold, watch, count++);
-      for (int k = 0; k < watch.more; ++k) {
-        if (count < sources.size()) sources[count] = -1;  // one finding, several manifolds
-        take(pairs.finding(watch).more[k], watch, count++);
-      }
+      const Finding& finding = pairs.finding(watch);
+      found.push_back({&finding.manifold, watch.isNew});
+      for (int k = 0; k < watch.more; ++k) found.push_back({&finding.more[k], watch.isNew});
     }
-    sources.resize(count);
-    manifolds.resize(count);
   }
 };
 
@@ -256,9 +243,12 @@ std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<
   const std::size_t pairs = prepare(start, end, margin);
   profileScope("narrow_phase");
   lookAt(0, pairs);
-  const std::span<const Manifold> found = gather();
+  const std::span<const Found> found = gather();
   profileScope("contact");
-  return found;
+  if (!impl_) return {};
+  impl_->manifolds.clear();
+  for (const Found& f : found) impl_->manifolds.push_back(*f.manifold);
+  return impl_->manifolds;
 }
 
 std::size_t Collider::prepare(std::span<const Pose> start, std::span<const Pose> end,
@@ -274,10 +264,15 @@ void Collider::lookAt(std::size_t from, std::size_t to) {
   if (impl_) impl_->lookAt(from, to);
 }
 
-std::span<const Manifold> Collider::gather() {
+std::span<const Found> Collider::gather() {
   if (!impl_) return {};
   impl_->gather();
-  return impl_->manifolds;
+  return impl_->found;
+}
+
+std::span<const Found> Collider::found() const {
+  if (!impl_) return {};
+  return impl_->found;
 }
 
 bool Collider::outdated(std::span<const Pose> start, std::span<const Pose> end,
@@ -327,7 +322,7 @@ void Collider::archive(Archive& a) {
 std::size_t Collider::bytes() const {
   if (!impl_) return 0;
   return sizeof(Impl) + impl_->pairs.bytes() + impl_->manifolds.capacity() * sizeof(Manifold) +
-         impl_->sources.capacity() * sizeof(int);
+         impl_->found.capacity() * sizeof(Found);
 }
 
 }  // namespace physics

@@ -37,8 +37,13 @@ struct Manifold {
   std::uint64_t pair = 0;  // of which two shapes, the same over their life; they are sorted by it
   Vec3 normal = Vec3::UnitY();  // body frame of b, unit, from b towards a
   int count = 0;
-  bool isNew = true;  // false: as the last find() told it
   std::array<ContactPoint, kMaxPoints> points;
+};
+
+// A manifold where the collider keeps it. Not new: as the last look told it.
+struct Found {
+  const Manifold* manifold = nullptr;
+  bool isNew = true;
 };
 
 class Archive;
@@ -66,10 +71,12 @@ class Collider {
 
   // find() in three parts. prepare() tells how many pairs there are to look at; lookAt() looks at
   // those from `from` up to `to`, in any order and on any thread: a pair is looked at once, and
-  // what is found of it depends on no other. `start` and `end` must last until gather().
+  // what is found of it depends on no other. `start` and `end` must last until gather(), and what
+  // that tells lasts until the next prepare().
   std::size_t prepare(std::span<const Pose> start, std::span<const Pose> end, double margin);
   void lookAt(std::size_t from, std::size_t to);
-  std::span<const Manifold> gather();
+  std::span<const Found> gather();
+  std::span<const Found> found() const;  // by the last look
 
   // True when one of `bodies`, moving from `start` to `end`, leaves the bounds that the last find()
   // looked in: contacts may be missing, call find() again.

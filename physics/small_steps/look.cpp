@@ -10,7 +10,7 @@ namespace physics {
 namespace {
 
 // Pairs are looked at by all threads: what is found of one depends on no other.
-std::span<const Manifold> findContacts(Model& w) {
+std::span<const Found> findContacts(Model& w) {
   constexpr int kLeastPairs = 64;  // of a thread
   profileScope("broad_phase");
   const auto pairs =
@@ -18,7 +18,7 @@ std::span<const Manifold> findContacts(Model& w) {
   profileScope("narrow_phase");
   w.workers.forEachChunk(pairs, kLeastPairs,
                          [&](int from, int to) { w.collider.lookAt(from, to); });
-  const std::span<const Manifold> found = w.collider.gather();
+  const std::span<const Found> found = w.collider.gather();
   profileScope("contact");
   return found;
 }
@@ -42,8 +42,8 @@ bool SmallSteps::Impl::lookOnce(Model& w) {
   const auto found = findContacts(w);
   if (w.sleep.count > 0) {
     const std::size_t called = w.sleep.called.size();
-    for (const Manifold& m : found) {
-      for (const BodyId i : {m.a, m.b}) callAwake(w.sleep, i);
+    for (const Found& f : found) {
+      for (const BodyId i : {f.manifold->a, f.manifold->b}) callAwake(w.sleep, i);
     }
     if (w.sleep.called.size() > called) {
       (*wake)();

@@ -173,7 +173,7 @@ void SmallSteps::Impl::displaceBody(Model& w, BodyId i, double h) {
   Bodies& b = w.bodies;
   Displacement& m = moved[i];
   displace(b.pose[i], m.u, m.theta);
-  b.pose[i].q.normalize();
+  renormalize(b.pose[i].q);
   if (inertiaOf[i] == Inertia::kGiven || inertiaOf[i] == Inertia::kNone) return;
   if (inertiaOf[i] == Inertia::kRound) {
     if (articulationOf[i] >= 0) {
@@ -320,14 +320,15 @@ void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& rep
   solveVelocities(w, batch, h);
   profileScope("motion");
   const bool alone = !batch.blocks.empty() && !batch.isMixed(), isGiven = giveExactly(w, batch);
+  const double rate = 1 / h;
   w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
                          [&](int from, int to) {
                            for (int k = from; k < to; ++k) {
                              const BodyId i = batch.bodies[k];
                              if (inertiaOf[i] == Inertia::kGiven) continue;
                              if (alone && !isGiven) fromLane(batch, k + 1);
-                             b.velocity[i].v = moved[i].u / h;
-                             b.velocity[i].w = moved[i].theta / h;
+                             b.velocity[i].v = rate * moved[i].u;
+                             b.velocity[i].w = rate * moved[i].theta;
                            }
                          });
   bounce(w, batch, h);

@@ -34,6 +34,10 @@ inline void scatter(const int (&slot)[8], Lanes mass, const Moved& body, LaneMot
   Lanes rows[8] = {body.u.x, body.u.y, body.u.z, body.turn.x, body.turn.y, body.turn.z, zero, zero};
   transpose(rows);
   const unsigned moves = positive(mass);
+  if (moves == 0xFF) {
+    for (int l = 0; l < 8; ++l) store(motions[slot[l]].u, rows[l]);
+    return;
+  }
   for (int l = 0; l < 8; ++l) {
     if (moves >> l & 1) store(motions[slot[l]].u, rows[l]);
   }

@@ -64,15 +64,15 @@ void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
 
 }  // namespace
 
-void keep(std::span<const KeptContact> previous, std::span<const Manifold> found,
+void keep(std::span<const KeptContact> previous, std::span<const Found> found,
           const Bodies& bodies, std::vector<KeptContact>& now) {
   now.resize(found.size());
   std::size_t old = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const Manifold& m = found[i];
+    const Manifold& m = *found[i].manifold;
     while (old < previous.size() && previous[old].key < m.pair) ++old;
     const bool goesOn = old < previous.size() && previous[old].key == m.pair;
-    if (goesOn && !m.isNew && previous[old].carried) {
+    if (goesOn && !found[i].isNew && previous[old].carried) {
       now[i] = previous[old];
       continue;
     }

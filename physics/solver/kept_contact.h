@@ -31,7 +31,7 @@ struct KeptContact {
 
 // What the collider found, with the multipliers of the points that go on. Both are sorted by their
 // key.
-void keep(std::span<const KeptContact> previous, std::span<const Manifold> found,
+void keep(std::span<const KeptContact> previous, std::span<const Found> found,
           const Bodies& bodies, std::vector<KeptContact>& now);
 
 // The same as the sweeps' pair, for reports: multipliers belong to a substep of `step`.

@@ -30,57 +30,16 @@ LaneMass laneMassOf(const JointMass& mass) {
   return lane;
 }
 
-Vec3 rotationOf(const LaneMass& mass, const Vec3& turn) {
-  const auto& r = mass.root;
-  return {r[0] * turn.x(), r[1] * turn.x() + r[3] * turn.y(),
-          r[2] * turn.x() + r[4] * turn.y() + r[5] * turn.z()};
-}
-
 LaneInverse inverseOf(const LaneMass& mass) {
   const auto& r = mass.root;
   const double i00 = 1.0 / r[0], i11 = 1.0 / r[3], i22 = 1.0 / r[5], i10 = -r[1] * i00 * i11;
   return {{i00, i10, -(r[2] * i00 + r[4] * i10) * i22, i11, -r[4] * i11 * i22, i22}};
 }
 
-Vec3 turnOf(const LaneInverse& inverse, const Vec3& theta) {
-  const auto& i = inverse.entries;
-  return {i[0] * theta.x(), i[1] * theta.x() + i[3] * theta.y(),
-          i[2] * theta.x() + i[4] * theta.y() + i[5] * theta.z()};
-}
-
 Vec3 torqueOf(const LaneMass& mass, const Vec3& turn) {
   const auto& r = mass.root;
   const double z = turn.z() / r[5], y = (turn.y() - r[4] * z) / r[3];
   return {(turn.x() - r[1] * y - r[2] * z) / r[0], y, z};
-}
-
-namespace {
-
-Vec3 change(const float (&now)[3], float (&then)[3]) {
-  Vec3 by;
-  for (int k = 0; k < 3; ++k) {
-    by[k] = double(now[k]) - then[k];
-    then[k] = now[k];
-  }
-  return by;
-}
-
-}  // namespace
-
-void LaneBodies::take(int slot, Vec3& u, Vec3* theta) const {
-  const LaneMotion& lane = motions[slot];
-  u += change(lane.u, before[slot].u);
-  if (theta) *theta += rotationOf(masses[slot], change(lane.turn, before[slot].turn));
-}
-
-void LaneBodies::give(int slot, const Vec3& u, const Vec3& theta) const {
-  LaneMotion& lane = motions[slot];
-  LaneStart& start = before[slot];
-  const Vec3 turn = turnOf(inverses[slot], theta);
-  for (int k = 0; k < 3; ++k) {
-    start.u[k] = lane.u[k] = static_cast<float>(u[k]);
-    start.turn[k] = lane.turn[k] = static_cast<float>(turn[k]);
-  }
 }
 
 }  // namespace physics

@@ -42,9 +42,44 @@ LaneMass laneMassOf(const JointMass& mass);
 LaneInverse inverseOf(const LaneMass& mass);
 
 // theta = root turn, and back
-Vec3 rotationOf(const LaneMass& mass, const Vec3& turn);
-Vec3 turnOf(const LaneInverse& inverse, const Vec3& theta);
+inline Vec3 rotationOf(const LaneMass& mass, const Vec3& turn) {
+  const auto& r = mass.root;
+  return {r[0] * turn.x(), r[1] * turn.x() + r[3] * turn.y(),
+          r[2] * turn.x() + r[4] * turn.y() + r[5] * turn.z()};
+}
+inline Vec3 turnOf(const LaneInverse& inverse, const Vec3& theta) {
+  const auto& i = inverse.entries;
+  return {i[0] * theta.x(), i[1] * theta.x() + i[3] * theta.y(),
+          i[2] * theta.x() + i[4] * theta.y() + i[5] * theta.z()};
+}
+
 // The torque that gives this turn where nothing but the inertia is in its way: root^-T turn.
 Vec3 torqueOf(const LaneMass& mass, const Vec3& turn);
+
+// `then` becomes `now`.
+inline Vec3 changeSince(float (&then)[3], const float (&now)[3]) {
+  Vec3 by;
+  for (int k = 0; k < 3; ++k) {
+    by[k] = double(now[k]) - then[k];
+    then[k] = now[k];
+  }
+  return by;
+}
+
+inline void LaneBodies::take(int slot, Vec3& u, Vec3* theta) const {
+  const LaneMotion& lane = motions[slot];
+  u += changeSince(before[slot].u, lane.u);
+  if (theta) *theta += rotationOf(masses[slot], changeSince(before[slot].turn, lane.turn));
+}
+
+inline void LaneBodies::give(int slot, const Vec3& u, const Vec3& theta) const {
+  LaneMotion& lane = motions[slot];
+  LaneStart& start = before[slot];
+  const Vec3 turn = turnOf(inverses[slot], theta);
+  for (int k = 0; k < 3; ++k) {
+    start.u[k] = lane.u[k] = static_cast<float>(u[k]);
+    start.turn[k] = lane.turn[k] = static_cast<float>(turn[k]);
+  }
+}
 
 }  // namespace physics

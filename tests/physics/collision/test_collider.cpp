@@ -133,7 +133,7 @@ TEST(Collider, FindsTheSameWhenPairsAreLookedAtInPartsOnTwoThreads) {
     other.join();
     const auto found = parts.collider.gather();
     ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(equal(found[i], expected[i]));
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(equal(*found[i].manifold, expected[i]));
     EXPECT_EQ(parts.collider.counts().narrowPhaseCalls, whole.collider.counts().narrowPhaseCalls);
   }
 }
