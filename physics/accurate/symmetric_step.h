@@ -68,8 +68,9 @@ class SymmetricStep {
   // is kept by what is linear in it.
   void takeMomenta(IslandState& state) const;
   void takeSpins(IslandState& state) const;
-  // Back to the state of the last `set`.
+  // Back to the state of the last `set`; and that is the present one from now on.
   void restart();
+  void stay();
   // Of the last `set`: some force damps what it holds within `time`, in which nothing swings. Steps
   // are to come in pairs.
   bool dampsWithin(double time, const Surroundings& world, const TrialPoses& trial);
