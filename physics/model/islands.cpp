@@ -14,8 +14,6 @@ BodyId rootOf(Islands& islands, BodyId body) {
 
 }  // namespace
 
-bool isMovable(const Bodies& bodies, BodyId body) { return bodies.motion[body] != Motion::kStatic; }
-
 void join(const Bodies& bodies, Islands& islands, BodyId a, BodyId b) {
   if (!isMovable(bodies, a) || !isMovable(bodies, b)) return;
   const BodyId i = rootOf(islands, a), j = rootOf(islands, b);

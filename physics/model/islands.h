@@ -12,7 +12,9 @@ namespace physics {
 // By body: the first body of its island.
 using Islands = std::vector<BodyId>;
 
-bool isMovable(const Bodies& bodies, BodyId body);
+inline bool isMovable(const Bodies& bodies, BodyId body) {
+  return bodies.motion[body] != Motion::kStatic;
+}
 
 void join(const Bodies& bodies, Islands& islands, BodyId a, BodyId b);
 
