@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 
 class Resumed : public Program {
  protected:
-  // Some 2 s of steps, with contacts, joints and what sleeps.
+  // Some second of steps, with contacts, joints and what sleeps.
   static constexpr const char* kScene =
-      "wrecking_ball --set duration=1 --set simulation.substeps=96 ";
+      "wrecking_ball --set duration=1 --set simulation.substeps=1200 ";
 
   std::string simulate(const std::string& name) const {
     return std::string("simulate ") + kScene + "-o " + name + " --motion " + name +
