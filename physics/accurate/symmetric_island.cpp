@@ -184,7 +184,6 @@ void SymmetricStep::takeSpins(IslandState& state) const {
 }
 
 void SymmetricStep::restart() { present_ = first_; }
-void SymmetricStep::stay() { first_ = present_; }
 
 // `set` makes the rest anew.
 void SymmetricStep::archive(Archive& a) {

@@ -68,9 +68,8 @@ class SymmetricStep {
   // is kept by what is linear in it.
   void takeMomenta(IslandState& state) const;
   void takeSpins(IslandState& state) const;
-  // Back to the state of the last `set`; and that is the present one from now on.
+  // Back to the state of the last `set`.
   void restart();
-  void stay();
   // Of the last `set`: some force damps what it holds within `time`, in which nothing swings. Steps
   // are to come in pairs.
   bool dampsWithin(double time, const Surroundings& world, const TrialPoses& trial);

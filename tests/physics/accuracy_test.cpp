@@ -57,27 +57,6 @@ struct Swing {
     bodies.inverse.push_back({moves ? 1.0 : 0.0, Mat3::Zero()});
     bodies.shape.push_back(PointShape{});
   }
-  // The same by an accuracy, in 120 frames; `single`: those made by one step of order 2. Halfway
-  // the body is given `kick` [m/s].
-  Vec3 endOf(double accuracy, const Vec3& kick, int& single) {
-    const Surroundings world{kinds, bodies, loads, Vec3(0, -kGravity, 0)};
-    std::vector<Pose> now = bodies.pose, start = now, later = now;
-    const std::vector<BodyId> moving = {1};
-    Extrapolation motion(SymmetricStep(refs, moving, world, known));
-    IslandState state{bodies.pose, bodies.velocity};
-    state.velocity[1].w = Vec3(0.5, 0, 0);
-    single = 0;
-    for (int k = 0; k < 120; ++k) {
-      if (k == 60) {
-        state.velocity[1].v += kick;
-        state.velocity[1].w += kick.cross(state.pose[1].x) / state.pose[1].x.squaredNorm() * -1;
-      }
-      AccuracyReport report;
-      EXPECT_TRUE(motion.advance(state, 1 / 60.0, accuracy, world, {now, start, later}, report));
-      single += report.order == 2 && report.accepted == 1;
-    }
-    return state.pose[1].x;
-  }
   // Where the body is after 2 s.
   Vec3 end(int columns, int steps) {
     const Surroundings world{kinds, bodies, loads, Vec3(0, -kGravity, 0)};
@@ -105,21 +84,6 @@ TEST_P(OrderOfExtrapolation, IsTwiceTheColumns) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Accuracy, OrderOfExtrapolation, ::testing::Values(1, 2, 3, 4));
-
-// Most frames of a loose accuracy are one step of order 2, of a tight one none; also where the
-// motion is another from one frame to the next.
-TEST(Accuracy, TakesOneStepAFrameWhereThatIsEnough) {
-  Swing swing;
-  for (const Vec3& kick : {Vec3(0, 0, 0), Vec3(0, 0, 3)}) {
-    int loose = 0, tight = 0, exactly = 0;
-    const Vec3 exact = swing.endOf(1e-9, kick, exactly);
-    EXPECT_LT((swing.endOf(0.1, kick, loose) - exact).norm(), 0.1);
-    EXPECT_LT((swing.endOf(1e-4, kick, tight) - exact).norm(), 1e-4);
-    EXPECT_GT(loose, 80);
-    EXPECT_EQ(tight, 0);
-    EXPECT_EQ(exactly, 0);
-  }
-}
 
 // Three bars that fall from the level, hung up in a row; in front of them another such row, or
 // none.
