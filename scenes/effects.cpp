@@ -213,7 +213,7 @@ void fillSleep(const Survey& s, Effect& e) {
 
 void fillLocalSubsteps(const Survey& s, Effect& e) {
   const physics::Settings& settings = s.scene.settings;
-  e.leftOut = settings.localSubsteps && settings.substeps == 1;
+  e.leftOut = settings.localSubsteps && settings.substepCount() == 1;
   e.on = settings.localSubsteps && !e.leftOut;
   e.why = e.leftOut ? "one substep: no island can do with fewer"
                     : or_(s.place("simulation.local_substeps"), "local_substeps = false");

@@ -76,9 +76,9 @@ std::string howText(const scenes::Scene& scene) {
     return fmt::format("{}, {} fps, accuracy {:g}: steps and orders as each island's error allows",
                        scenes::wordOf(s.method), scene.fps, *s.accuracy);
   }
-  return fmt::format("{}, {}, {} fps, {} substep{}, {} iteration{}", scenes::wordOf(s.method),
-                     scenes::wordOf(s.stepping), scene.fps, s.substeps, s.substeps == 1 ? "" : "s",
-                     s.iterations, s.iterations == 1 ? "" : "s");
+  return fmt::format("{}, {}, {} fps, {}, {} iteration{}", scenes::wordOf(s.method),
+                     scenes::wordOf(s.stepping), scene.fps, scenes::substepsText(s), s.iterations,
+                     s.iterations == 1 ? "" : "s");
 }
 
 }  // namespace

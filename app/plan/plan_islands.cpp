@@ -23,6 +23,7 @@ constexpr LawWord kLaws[] = {
     {SubstepLaw::kOverlap, "overlap", " (overlap of points)"},
     {SubstepLaw::kStrain, "strain", " (strain of the mesh)"},
     {SubstepLaw::kTurn, "turn", " (turn in a substep)"},
+    {SubstepLaw::kPull, "pull", " (swings of what joints pull)"},
     {SubstepLaw::kApproach, "approach", " (speed of approach)"},
     {SubstepLaw::kOpened, "opened", " (joints that half could not close)"}};
 

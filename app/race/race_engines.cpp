@@ -10,6 +10,7 @@
 #include "app/base/build_info.h"
 #include "app/base/nearest.h"
 #include "scenes/measure/survey.h"
+#include "scenes/read/settings_reader.h"
 
 namespace app {
 
@@ -33,8 +34,8 @@ const PeerEngine* findEngine(const std::vector<PeerEngine>& engines, const std::
 
 RaceEntry ourEntry(const scenes::Scene& scene) {
   const physics::Settings& s = scene.settings;
-  std::string setup = s.accuracy ? fmt::format("accuracy {:.3g}", *s.accuracy)
-                                 : fmt::format("{} substeps", s.substeps);
+  std::string setup =
+      s.accuracy ? fmt::format("accuracy {:.3g}", *s.accuracy) : scenes::substepsText(s);
   if (s.sleep) setup += ", what rests sleeps";
   return {kOurs, "dbd " + version(), setup, ""};
 }

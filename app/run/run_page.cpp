@@ -72,12 +72,18 @@ std::string showTimes(const RunRecord& record) {
   return html + "</table>\n";
 }
 
+std::string substepsOf(const Json& settings) {
+  const auto found = settings.find("substeps");
+  const bool isCount = found != settings.end() && found->is_number();
+  return isCount ? fmt::format("{} substeps", found->get<int>()) : "substeps as each island asks";
+}
+
 std::string showSettings(const RunRecord& record) {
   const Json& s = record.settings;
   return fmt::format(
-      "<p class=\"quiet\">{} frames at {} per second, {} substeps, {} iterations, {}×{} pixels, {} "
+      "<p class=\"quiet\">{} frames at {} per second, {}, {} iterations, {}×{} pixels, {} "
       "quality. Last state <code>{}</code></p>\n",
-      s.value("frames", 0), s.value("fps", 0), s.value("substeps", 0), s.value("iterations", 0),
+      s.value("frames", 0), s.value("fps", 0), substepsOf(s), s.value("iterations", 0),
       record.picture.value("width", 0), record.picture.value("height", 0),
       fieldText(record.picture, "quality"),
       record.stateHashes.empty() ? "" : record.stateHashes.back());

@@ -45,12 +45,13 @@ Json describeSettings(const scenes::Scene& scene) {
                {"frames", scene.frameCount()},
                {"seed", scene.seed},
                {"dt", s.dt},
-               {"substeps", s.substeps},
                {"iterations", s.iterations},
                {"method", scenes::wordOf(s.method)},
                {"stepping", scenes::wordOf(s.stepping)},
                {"relaxation", s.relaxation},
                {"regularisation", s.regularisation}};
+  const bool isOfIslands = s.method == physics::Method::kSmallSteps && !s.substeps;
+  json["substeps"] = isOfIslands ? Json() : Json(s.substepCount());
   json["accuracy"] = s.accuracy ? Json(*s.accuracy) : Json();
   json["gravity"] = s.gravity ? toJson(*s.gravity) : Json();
   json["contact"] = s.contact ? describeContact(*s.contact) : Json();

@@ -119,11 +119,11 @@ bool measureAll(const std::vector<Run>& runs, const EffectEffort& effort,
 Run effectRun(const std::string& word, const scenes::Scene& scene,
               const std::vector<std::string>& overrides, const EffectTrial& trial, int steps) {
   Run run;
-  run.key = {scene.name, trial.name, steps, scene.settings.substeps};
+  run.key = {scene.name, trial.name, steps, scene.settings.substepCount()};
   run.scene = word;
   run.set = overrides;
   run.set.insert(run.set.end(), trial.set.begin(), trial.set.end());
-  run.h = 1.0 / (scene.fps * scene.settings.substeps);
+  run.h = 1.0 / (scene.fps * scene.settings.substepCount());
   run.untimed = 1;  // settles what touches, and allocates
   run.limits.frames = steps + 1;
   return run;

@@ -76,7 +76,7 @@ void askForSubsteps(WorldState& w) {
   const bool isTime = !local.full || w.stepCount % kCalm == kCalm - 1;
   if (!stepsLocally(w.settings) || !isTime) return;
   if (local.full) joinAll(w);
-  const int most = w.settings.substeps;
+  const int most = w.settings.substepCount();
   const std::vector<Need> all = needs(w);
   bool full = true;
   for (const BodyId i : w.bodies.active) {

@@ -19,7 +19,7 @@ void makeRoom(WorldState& w) {
   if (local.wanted.size() == size) return;
   local.asked.resize(size, 1);
   for (auto* list : {&local.wanted, &local.substeps, &local.last}) {
-    list->assign(size, w.settings.substeps);
+    list->assign(size, w.settings.substepCount());
   }
   local.calm.assign(size, 0);
 }
@@ -54,7 +54,7 @@ void numberIslands(WorldState& w) {
   for (const BodyId i : w.bodies.active) local.substeps[i] = 1;
   for (const BodyId i : w.bodies.active) {
     int& most = local.substeps[local.islands[i]];
-    most = std::max({most, local.wanted[i], std::min(local.asked[i], w.settings.substeps)});
+    most = std::max({most, local.wanted[i], std::min(local.asked[i], w.settings.substepCount())});
   }
   for (const BodyId i : w.bodies.active) {
     local.substeps[i] = local.substeps[local.islands[i]];
@@ -118,7 +118,7 @@ void exchange(WorldState& w, Group& group) {
 }  // namespace
 
 bool stepsLocally(const Settings& settings) {
-  return settings.localSubsteps && settings.leavesOut && settings.substeps > 1 &&
+  return settings.localSubsteps && settings.leavesOut && settings.substepCount() > 1 &&
          settings.stepping != Stepping::kStatic &&
          (settings.method == Method::kNonlinearGaussSeidel || settings.method == Method::kDirect ||
           settings.method == Method::kSmallSteps);
@@ -168,7 +168,7 @@ void leave(WorldState& w, Group& group) {
     w.ahead[i] = w.bodies.pose[i];  // where the groups after this one find it
   }
   exchange(w, group);
-  w.substeps = w.settings.substeps;
+  w.substeps = w.settings.substepCount();
 }
 
 void leaveGroups(WorldState& w) {

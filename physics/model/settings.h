@@ -43,11 +43,13 @@ struct SleepSettings {
 };
 
 struct Settings {
-  double dt = 1.0 / 60;  // one step() [s]
+  double dt = 1.0 / 60;            // one step() [s]
   std::optional<double> accuracy;  // of the default method: relative to the size of what moves;
                                    // absent: as fast as it is. accurate/extrapolation.h
-  int substeps = 4;
-  int iterations = 1;  // sweeps over all constraints per substep, N of Algorithm 1
+  // Absent: four, but of the default method each island takes what it asks for; else no fewer.
+  std::optional<int> substeps;
+  int substepCount() const { return substeps.value_or(4); }
+  int iterations = 1;               // sweeps over all constraints per substep, N of Algorithm 1
   std::optional<double> tolerance;  // more of them, while one still moves a body by more [m]
   int maxIterations = 40;           // and no more than these
   Method method = Method::kSmallSteps;

@@ -92,7 +92,7 @@ void SmallSteps::Impl::makeAgain(Model& w, std::size_t index) {
 void SmallSteps::Impl::askFiner(const Model& w, const Batch& batch) {
   for (const int k : batch.articulations) {
     if (!batch.isAgain) finer[k] /= 2;
-    if (finer[k] <= std::max(1, w.settings.substeps)) finer[k] = 0;
+    if (finer[k] <= w.settings.substeps.value_or(kLeastSolved)) finer[k] = 0;
     want(articulations[k].bodies().front(), finer[k], SubstepLaw::kOpened);
   }
 }

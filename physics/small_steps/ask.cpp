@@ -118,6 +118,19 @@ void SmallSteps::Impl::askSoft(const Model& w, const Batch& batch) {
   }
 }
 
+// What joints pull turns bodies back, across what pulls: they swing by [omega h]^2 = I^-1 K, which
+// has two directions. Of swings that take less than two substeps nothing is left to follow.
+void SmallSteps::Impl::askJoints(const Batch& batch) {
+  for (const int k : batch.articulations) {
+    const auto bodies = articulations[k].bodies();
+    double most = 0;
+    for (const BodyId i : bodies) {
+      most = std::max(most, 0.5 * stiffness[i].cwiseProduct(masses[i].inertia).sum());
+    }
+    want(bodies.front(), substepsFor(batch.substeps, most / (kPi * kPi)), SubstepLaw::kPull);
+  }
+}
+
 // The same of what deformables are off by.
 void SmallSteps::Impl::askDeformables(Model& w, const Batch& batch, double h) {
   for (const BodyId i : batch.bodies) asked[i] = 0;
@@ -146,7 +159,7 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch, double h)
     }
   }
   for (const int k : batch.articulations) {
-    if (!articulations[k].holdsBothWays()) continue;
+    if (!articulations[k].holdsBothWays() || !(g > 0)) continue;
     for (const BodyId i : articulations[k].bodies()) {
       if (load[i] > kMostCarried * b.mass[i] * g * h * h) responding[k] = 1;
     }
@@ -157,6 +170,7 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch, double h)
 void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   weighJoints(w, batch, h);
   askDeformables(w, batch, h);
+  askJoints(batch);
   askSoft(w, batch);
   weighMotion(w, batch, h);
   weighContacts(w, batch);

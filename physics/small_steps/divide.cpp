@@ -104,7 +104,7 @@ int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) 
   };
   const double most = (b.velocity[c.a].v - b.velocity[c.b].v).norm() + turning(c.a) + turning(c.b);
   const double way = kLargestWay * size / w.settings.dt;  // a substep's, by their number
-  if (most <= way * std::max(1, w.settings.substeps)) return 1;
+  if (most <= way * w.settings.substepCount()) return 1;
   const double count = std::ceil(approachOf(b, c) / way);
   return static_cast<int>(std::min<double>(count, kMostSubsteps));
 }
@@ -153,6 +153,15 @@ bool SmallSteps::Impl::softStepsNow(const Model& w, const SoftPair& pair) const 
   return steps[softMoverOf(w, pair)] && (!isMovable(w.bodies, pair.body) || steps[pair.body]);
 }
 
+// Substeps that a body's island takes at the least.
+int SmallSteps::Impl::leastOf(const Model& w, BodyId i) const {
+  if (w.settings.substeps) return *w.settings.substeps;
+  const BodyId root = islands[i];
+  const bool isSwept = held[root] == Held::kTouching && joined[root] != Joined::kTakesTurns;
+  const bool isPoint = std::holds_alternative<PointShape>(w.bodies.shape[i]);
+  return isSwept || isPoint || deformableOf[i] >= 0 ? kLeastSwept : kLeastSolved;
+}
+
 // Of those that step now: islands by constraints and contacts, and what each asks for.
 void SmallSteps::Impl::divide(Model& w) {
   const Bodies& b = w.bodies;
@@ -173,7 +182,7 @@ void SmallSteps::Impl::divide(Model& w) {
     batchOf[i] = -1;
     held[i] = Held::kNot;
     joined[i] = Joined::kNot;
-    substeps[i] = std::max(1, w.settings.substeps);
+    substeps[i] = 1;
     sweeps[i] = 1;
   }
   for (const BodyId i : stepping) {
@@ -196,6 +205,9 @@ void SmallSteps::Impl::divide(Model& w) {
   for (const SoftPair& pair : softPairs) {
     Held& island = held[islands[softMoverOf(w, pair)]];
     if (softStepsNow(w, pair)) island = std::max(island, Held::kJoined);
+  }
+  for (const BodyId i : stepping) {
+    substeps[islands[i]] = std::max(substeps[islands[i]], leastOf(w, i));
   }
 }
 

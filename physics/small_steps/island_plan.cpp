@@ -31,7 +31,7 @@ void SmallSteps::Impl::tell(const Model& w, int parts) const {
     plan.halves = parts > 1;
     plan.substeps = substeps[islands[i]];
     plan.sweeps = sweeps[islands[i]];
-    if (asked[i] == plan.substeps && asked[i] > w.settings.substeps) plan.law = law[i];
+    if (asked[i] == plan.substeps && asked[i] > leastOf(w, i)) plan.law = law[i];
   }
   for (std::size_t k = 0; k < batchCount; ++k) {
     countParts(batches[k], plans);

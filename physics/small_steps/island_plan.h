@@ -11,9 +11,10 @@ namespace physics {
 
 // What an island's substeps are asked for by, ask.cpp: nothing more than the settings' least; the
 // sag of contacts under their load; the overlap of points and links; the strain of what holds a
-// mesh; the turn of a rope's pieces; the speed at which bodies approach each other (divide.cpp);
-// joints that half as many substeps could not close (again.cpp).
-enum class SubstepLaw : char { kLeast, kSag, kOverlap, kStrain, kTurn, kApproach, kOpened };
+// mesh; the turn of a rope's pieces; how quickly what joints pull turns back; the speed at which
+// bodies approach each other (divide.cpp); joints that half as many substeps could not close
+// (again.cpp).
+enum class SubstepLaw : char { kLeast, kSag, kOverlap, kStrain, kTurn, kPull, kApproach, kOpened };
 
 struct IslandPlan {
   BodyId first = 0;  // of its bodies

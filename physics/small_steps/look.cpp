@@ -103,7 +103,7 @@ void SmallSteps::Impl::look(Model& w) {
 // The bodies of islands with a fast one step now. False: there is none.
 bool SmallSteps::Impl::chooseFast(Model& w) {
   const Bodies& b = w.bodies;
-  if (!w.touches || w.settings.substeps < 2) return false;
+  if (!w.touches || w.settings.substepCount() < 2) return false;
   const double speed = w.settings.contact->margin / w.settings.dt;
   bool some = false;
   for (const BodyId i : b.active) {

@@ -82,6 +82,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
 // before is as it was.
 void SmallSteps::Impl::run(Model& w, Batch& batch, double h, int count, StepReport& report) {
   batch.joints.take(articulations, batch.articulations);
+  batch.joints.seeStart({w.kinds, w.bodies.pose, w.bodies.pose, h, masses, moved});
   for (int i = 0; i < count; ++i) {
     takeFactors(w.kinds, w.bodies, now + i * h, now + (i + 1) * h);
     predict(w, batch, h, i == 0);

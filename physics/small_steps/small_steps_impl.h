@@ -64,7 +64,11 @@ struct KeptStart {
 // What pays for being dealt to threads.
 constexpr int kLeastBodies = 64, kLeastBlocks = 8;
 
-constexpr int kMostSubsteps = 64;
+// Substeps at the least, where settings say nothing. Contacts that take no turns with joints are
+// swept once in each, and ropes and meshes are not done after one either; joints are solved in
+// each, with contacts in four turns: they need no more than two halves of a step with a look
+// between.
+constexpr int kLeastSwept = 4, kLeastSolved = 2, kMostSubsteps = 64;
 
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 
@@ -236,6 +240,7 @@ struct SmallSteps::Impl {
   bool choose(const Model& w, int parts);
   void spread(Model& w);
   bool touchesNow(const Bodies& b, const KeptContact& c) const;
+  int leastOf(const Model& w, BodyId i) const;
   void divide(Model& w);
   int substepsForApproach(const Model& w, const KeptContact& c) const;
   void assign(Model& w);
@@ -304,6 +309,7 @@ struct SmallSteps::Impl {
   double sagOf(BodyId root) const;
   void weighMotion(const Model& w, const Batch& batch, double h);
   void weighContacts(const Model& w, const Batch& batch);
+  void askJoints(const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
   void askDeformables(Model& w, const Batch& batch, double h);
   void keepStart(const Model& w, Batch& batch);

@@ -50,9 +50,11 @@ void SmallSteps::Impl::predict(Model& w, Batch& batch, double h, bool first) {
 }
 
 // Bodies that joints alone hold are given half of gravity and loads before they move, and half
-// after: with arms that are turned back that is RATTLE, of second order in a swing.
+// after: with arms that are turned back that is RATTLE, of second order in a swing. Springs work on
+// positions alone, and hold all of it there.
 bool SmallSteps::Impl::isHalved(const Batch& batch, BodyId i) const {
-  return !batch.touches && articulationOf[i] >= 0;
+  const int k = articulationOf[i];
+  return !batch.touches && k >= 0 && !articulations[k].givesWay();
 }
 
 void SmallSteps::Impl::giveOtherHalf(const Model& w, const Batch& batch, double h) {
@@ -248,6 +250,9 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
                             batch.touches ? std::span<const Vec3>() : meanSpins};
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
+  if (batch.joints.isApart()) {
+    for (const BodyId i : batch.bodies) predicted[i] = moved[i];
+  }
   if (w.settings.maxCorrectionSpeed) batch.joints.leave(stage, h * *w.settings.maxCorrectionSpeed);
   if (count > 0 && batch.takesTurns()) {
     takeTurns(w, batch, stage);
@@ -273,6 +278,7 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
+  batch.joints.forgetClosing(stage, predicted);
   batch.joints.prepareVelocities(stage);
   batch.joints.solveVelocities(stage);
   for (const int k : batch.deformables) {

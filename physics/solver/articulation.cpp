@@ -47,7 +47,7 @@ void Articulation::forget() { std::fill(pulls_.begin(), pulls_.end(), Pull{}); }
 
 void Articulation::archive(Archive& a) {
   for (auto& [lambda, arm, linear] : pulls_) a(lambda, arm, linear);
-  a(isOpened_);
+  a(holdsBothWays_, givesWay_, isOpened_);
 }
 
 template <class F>
@@ -87,6 +87,20 @@ void JointPacks::stiffen(std::span<Mat3> stiffness) const {
 
 void JointPacks::leave(const JointStage& stage, double most) {
   forEach([&](auto& pack) { pack.leave(stage, most); });
+}
+
+void JointPacks::seeStart(const JointStage& stage) {
+  forEach([&](auto& pack) { pack.seeStart(stage); });
+}
+
+bool JointPacks::isApart() const {
+  const auto isApart = [](const auto& pack) { return pack.isApart(); };
+  return std::any_of(ones_.begin(), ones_.begin() + oneCount_, isApart) ||
+         std::any_of(fours_.begin(), fours_.begin() + fourCount_, isApart);
+}
+
+void JointPacks::forgetClosing(const JointStage& stage, std::span<const Displacement> predicted) {
+  forEach([&](auto& pack) { pack.forgetClosing(stage, predicted); });
 }
 
 void JointPacks::seePositions(const JointStage& stage) {

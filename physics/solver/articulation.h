@@ -57,6 +57,7 @@ class Articulation {
   std::size_t size() const { return refs_.size(); }
   std::span<const BodyId> allBodies() const { return all_; }
   bool holdsBothWays() const { return holdsBothWays_; }  // nothing but gaps and axles, at work
+  bool givesWay() const { return givesWay_; }            // a spring, drive or damper is at work
   JointResponse& response() { return response_; }        // of bodies that contacts touch
   const JointResponse& response() const { return response_; }
   bool isOpened() const { return isOpened_; }  // a substep since `take` has taken joints apart
@@ -80,7 +81,7 @@ class Articulation {
   std::vector<BodyId> all_;     // bodies of its rows, sorted
   std::vector<BodyId> bodies_;  // those of them that move
   std::vector<Pull> pulls_;     // by row
-  bool holdsBothWays_ = false, isOpened_ = false;
+  bool holdsBothWays_ = false, givesWay_ = false, isOpened_ = false;
   JointResponse response_;
 };
 
@@ -106,6 +107,9 @@ class JointPack {
   void take(std::span<Articulation* const> articulations);
   void stiffen(std::span<Mat3> stiffness) const;
   void leave(const JointStage& stage, double most);
+  void seeStart(const JointStage& stage);
+  bool isApart() const;
+  void forgetClosing(const JointStage& stage, std::span<const Displacement> predicted);
   void seePositions(const JointStage& stage);
   void followPositions(const JointStage& stage);
   void startTurns(const JointStage& stage, const LaneBodies& lanes);
@@ -155,6 +159,7 @@ class JointPack {
   void takePulls();
   bool givesWay(int row, int lane) const;
   bool holdsBothWays(int lane) const;
+  bool hasForce(int lane) const;
   std::array<int, W> placesOf(std::size_t body) const;
   void pushAlone(std::size_t body, const std::array<int, W>& places, int component);
   void noteResponse(const std::array<int, W>& from, int component);
@@ -167,8 +172,8 @@ class JointPack {
   std::vector<JointLanes<W>> rows_;
   std::vector<Num<W>> entries_, scaled_;  // of blocks below the diagonal
   std::vector<State> states_;             // by row
-  bool began_ = false;                    // a substep of this step
   Num<W> open_{};
+  std::array<bool, W> apart_{};  // where the step began, and since
   std::vector<char> used_;
   std::vector<int> usedBelow_, usedCounts_;
   std::vector<Num<W>> tail_, tailWork_;  // A, and what it is solved with
@@ -195,6 +200,11 @@ class JointPacks {
   void stiffen(std::span<Mat3> stiffness) const;  // adds what joints pull with, by BodyId
   // Before the substep, where errors are taken back by at most so much [m, rad].
   void leave(const JointStage& stage, double most);
+  // Joints that are apart where a step begins: what brings them together is no motion, and bodies
+  // go on from what was `predicted` before, and what forces gave them.
+  void seeStart(const JointStage& stage);
+  bool isApart() const;
+  void forgetClosing(const JointStage& stage, std::span<const Displacement> predicted);
   // Begins a substep: evaluates the rows where the bodies are. Then, as often as they were given
   // something since, solves for positions by these rows.
   void seePositions(const JointStage& stage);

@@ -44,8 +44,6 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     tailPlaces_.resize(tail);
   }
   takePulls();
-  for (JointLanes<W>& row : rows_) row.carried = {};
-  began_ = false;
   if (isSame) return;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     JointLanes<W>& row = rows_[i];
@@ -62,12 +60,12 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
 template <int W>
 void JointPack<W>::takePulls() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (!topology_->shapes[i].pulls) continue;
     const JointShape& shape = topology_->shapes[i];
     JointLanes<W>& row = rows_[i];
     for (int l = 0; l < W; ++l) {
       const Articulation::Pull& pull = of_[l]->pulls_[i];
       write(row.lambda, l, pull.lambda);
+      if (!shape.pulls) continue;
       for (int b = 0; b < shape.bodyCount; ++b) {
         write(row.arm[b], l, pull.arm[b]);
         if (shape.hasLinear) writeRows(row.linear[b], l, pull.linear[b], shape.rows);
@@ -373,6 +371,40 @@ void JointPack<W>::step() {
 }
 
 template <int W>
+void JointPack<W>::seeStart(const JointStage& stage) {
+  gatherPoses<W>(ids_, stage.pose, bodies_);
+  jointKernels<W>().seeGaps(view(), false);
+  for (int l = 0; l < lanes_; ++l) apart_[l] = hasGap(l);
+}
+
+template <int W>
+bool JointPack<W>::isApart() const {
+  return std::any_of(apart_.begin(), apart_.begin() + lanes_, [](bool apart) { return apart; });
+}
+
+// What constraints gave is left out, and what forces gave stays. Then, at the end of the substep,
+// those that are together by now stay so.
+template <int W>
+void JointPack<W>::forgetClosing(const JointStage& stage, std::span<const Displacement> predicted) {
+  if (!isApart()) return;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    if (topology_->moves[i / W] && apart_[i % W]) stage.moved[ids_[i]] = predicted[ids_[i]];
+  }
+  gatherMotion<W>(ids_, stage.moved, bodies_);
+  for (const int i : topology_->others) {
+    for (int l = 0; l < lanes_; ++l) {
+      const bool pushes = states_[i].active[l] && states_[i].role[l] != JointRow::Role::kConstraint;
+      if (!apart_[l] || !pushes) continue;
+      give<W>(topology_->shapes[i], rows_[i], l, read(rows_[i].lambda, l), bodies_);
+    }
+  }
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+  const std::array<bool, W> were = apart_;
+  seeStart(stage);
+  for (int l = 0; l < lanes_; ++l) apart_[l] = apart_[l] && were[l];
+}
+
+template <int W>
 void JointPack<W>::seePositions(const JointStage& stage) {
   openAll();
   gatherMotion<W>(ids_, stage.moved, bodies_);
@@ -386,11 +418,10 @@ void JointPack<W>::seePositions(const JointStage& stage) {
     std::copy(std::begin(body.q), std::end(body.q), std::begin(body.startQ));
   }
   see(stage, true);
-  if (began_) noteCarried();
-  began_ = true;
+  noteSeen();
+  noteCarried();
   begin();
   chooseFree();
-  noteSeen();
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
@@ -666,17 +697,27 @@ bool JointPack<W>::holdsBothWays(int l) const {
 }
 
 template <int W>
+bool JointPack<W>::hasForce(int l) const {
+  return std::any_of(topology_->others.begin(), topology_->others.end(), [&](int i) {
+    return states_[i].active[l] && states_[i].role[l] == JointRow::Role::kForce;
+  });
+}
+
+template <int W>
 void JointPack<W>::finish(Kinds& kinds, double h) {
-  for (int l = 0; l < lanes_; ++l) of_[l]->holdsBothWays_ = holdsBothWays(l);
+  for (int l = 0; l < lanes_; ++l) {
+    of_[l]->holdsBothWays_ = holdsBothWays(l);
+    of_[l]->givesWay_ = hasForce(l);
+  }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const JointLanes<W>& row = rows_[i];
     for (int l = 0; l < lanes_; ++l) {
       if (of_[l]->isOpened_) continue;
       const Vec3 lambda = read(row.lambda, l);
       writeMultiplier(kinds, of_[l]->refs_[i], lambda, h);
-      if (!topology_->shapes[i].pulls) continue;
       Articulation::Pull& pull = of_[l]->pulls_[i];
       pull.lambda = lambda;
+      if (!topology_->shapes[i].pulls) continue;
       const JointShape& shape = topology_->shapes[i];
       for (int b = 0; b < shape.bodyCount; ++b) {
         pull.arm[b] = read(row.arm[b], l);

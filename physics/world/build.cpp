@@ -11,7 +11,7 @@ bool isPoint(const Shape& shape) { return std::holds_alternative<PointShape>(sha
 
 void checkSettings(const Settings& s) {
   require(std::isfinite(s.dt) && s.dt > 0, "dt must be a positive number of seconds");
-  require(s.substeps >= 1, "substeps must be at least 1");
+  require(s.substepCount() >= 1, "substeps must be at least 1");
   require(!s.accuracy || (*s.accuracy > 0 && *s.accuracy <= 0.5),
           "accuracy must lie between 0 and 0.5");
   require(s.iterations >= 1, "iterations must be at least 1");
@@ -64,7 +64,7 @@ World::World(const Settings& settings) : impl_(std::make_unique<Impl>()) {
   }
   require(settings.localTolerance > 0, "the tolerance of local substeps must be > 0");
   impl_->settings = settings;
-  impl_->substeps = settings.substeps;
+  impl_->substeps = settings.substepCount();
   impl_->bodies.general = !settings.leavesOut;
   BodyDef world;
   world.motion = Motion::kStatic;

@@ -90,7 +90,7 @@ bool World::isAsleep(BodyId body) const {
 int World::substepsOf(BodyId body) const {
   if (takesSmallSteps(*impl_)) return impl_->small.substepsOf(body);
   const std::vector<int>& last = impl_->local.last;
-  return last.empty() ? impl_->settings.substeps : last[body];
+  return last.empty() ? impl_->settings.substepCount() : last[body];
 }
 
 }  // namespace physics

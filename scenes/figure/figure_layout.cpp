@@ -15,7 +15,7 @@ namespace {
 // In lines of text.
 constexpr double kGutter = 0.5, kLabelGap = 1.05, kLineStep = 1.2, kRowGap = 0.55, kEdge = 0.1;
 constexpr float kMeanLetter = 0.53f;  // mean of the shipped font
-constexpr float kTextSize = 34;        // px at the sheet's own width
+constexpr float kTextSize = 34;       // px at the sheet's own width
 
 struct Row {
   size_t begin = 0, end = 0;  // tiles
@@ -146,7 +146,7 @@ std::string stampOf(const FigurePanel& panel, const Scene& scene, int frame, boo
                                                   : Stamp::kNone;
   if (stamp == Stamp::kNone) return "";
   if (stamp == Stamp::kIteration) {
-    const int sweeps = frame * scene.settings.substeps * scene.settings.iterations;
+    const int sweeps = frame * scene.settings.substepCount() * scene.settings.iterations;
     return sweeps == 0 ? "start" : fmt::format("{} iteration{}", sweeps, sweeps == 1 ? "" : "s");
   }
   return fmt::format("*t* = {:.2f} s", static_cast<double>(frame) / scene.fps);

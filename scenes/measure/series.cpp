@@ -50,7 +50,7 @@ std::vector<double> Series::along(const MetricOf& name) const {
 SeriesRecorder::SeriesRecorder(const Simulation& simulation, std::vector<MetricOf> names) {
   const Scene& scene = simulation.scene();
   series_.fps = scene.fps;
-  series_.sweepsPerFrame = scene.settings.substeps * scene.settings.iterations;
+  series_.sweepsPerFrame = scene.settings.substepCount() * scene.settings.iterations;
   series_.names = std::move(names);
   series_.values.resize(series_.names.size());
   for (const MetricOf& name : series_.names) {

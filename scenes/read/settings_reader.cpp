@@ -159,6 +159,12 @@ void readExpectation(TableReader& reader, Scene& scene) {
 const char* wordOf(physics::Method method) { return kMethods[static_cast<int>(method)]; }
 const char* wordOf(physics::Stepping stepping) { return kSteppings[static_cast<int>(stepping)]; }
 
+std::string substepsText(const physics::Settings& s) {
+  const bool isOfIslands = s.method == physics::Method::kSmallSteps && !s.substeps;
+  if (isOfIslands) return "substeps as each island asks";
+  return fmt::format("{} substep{}", s.substepCount(), s.substepCount() == 1 ? "" : "s");
+}
+
 void readCamera(TableReader& reader, CameraDef& camera) {
   reader(Field{"field_of_view_degrees", Unit::kNone, false, 1, 150}, camera.fieldOfViewDegrees);
   reader(Field{"direction", Unit::kDirection}, camera.direction);

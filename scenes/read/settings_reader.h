@@ -13,6 +13,7 @@ void readSettings(TableReader& root, Scene& scene);
 
 const char* wordOf(physics::Method method);  // as [simulation] has it
 const char* wordOf(physics::Stepping stepping);
+std::string substepsText(const physics::Settings& settings);  // as a reader is told them
 
 // [film]: how long a step of the simulation is.
 void readFilm(TableReader& root, Scene& scene);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/read/settings_reader.h"
 #include "scenes/vectors.h"
 #include "scenes/view/arm_overlay.h"
 #include "scenes/view/palette.h"
@@ -37,7 +38,7 @@ void drawImpulses(const Simulation& simulation, double scale, render::Picture& p
   for (physics::BodyId b = 1; b < bodies.size(); ++b) {
     if (bodies.motion[b] == physics::Motion::kDynamic) mass += bodies.mass[b];
   }
-  const double weight = 9.81 * mass * world.settings().dt / world.settings().substeps;
+  const double weight = 9.81 * mass * world.settings().dt / world.settings().substepCount();
   for (const physics::ContactReport& contact : simulation.contacts()) {
     const double size = contact.impulse.norm();
     if (size <= 1e-6 * weight) continue;
@@ -162,7 +163,7 @@ render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics
   if (settings.accuracy) {
     addAccuracyRows(history, *settings.accuracy, hud);
   } else {
-    hud.rows.push_back({"step", fmt::format("1/{} s, {} substeps", scene.fps, settings.substeps)});
+    hud.rows.push_back({"step", fmt::format("1/{} s, {}", scene.fps, substepsText(settings))});
     hud.rows.push_back({"iterations", fmt::format("{} per substep", settings.iterations)});
   }
   const auto& motion = simulation.world().bodies().motion;

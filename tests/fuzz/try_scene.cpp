@@ -15,7 +15,7 @@ constexpr int kMostSeen = 3000;  // bodies
 constexpr int kMostWork = 2000;  // bodies times substeps of a step: more is not stepped again
 
 void cutShort(physics::Settings& settings) {
-  settings.substeps = std::min(settings.substeps, kMostSubsteps);
+  settings.substeps = std::min(settings.substepCount(), kMostSubsteps);
   settings.iterations = std::min(settings.iterations, kMostSweeps);
 }
 

@@ -139,7 +139,7 @@ struct OverfullBox {
 
   // What contacts push with in all [N].
   double pressure() const {
-    const double h = world.settings().dt / world.settings().substeps;
+    const double h = world.settings().dt / world.settings().substepCount();
     double sum = 0;
     for (const ContactReport& contact : world.contacts()) sum += contact.impulse.norm() / h;
     return sum;
