@@ -76,9 +76,8 @@ void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch) {
       change[root] += block.change[l];
       const Softness law = softnessOf(b, c);
       const double soft = (1 - law.scale) / (law.scale * law.rate);
-      const bool jointed = articulationOf[c.a] >= 0 || articulationOf[c.b] >= 0;
       const double size = std::min(radius[c.a], radius[c.b]);
-      if (!(size > 0) || jointed) continue;
+      if (!(size > 0) || isJointed(c)) continue;
       const double small = smallSag(b, c, size, w.settings.dt);
       for (int k = 0; k < c.count; ++k) {
         const double inverse = block.point[k].inverse[l];

@@ -25,10 +25,15 @@ void addRun(int end, bool independent, bool responds, std::vector<BlockRun>& run
 
 }  // namespace
 
+// Whether joints hold something behind one of the two.
+bool SmallSteps::Impl::isJointed(const KeptContact& c) const {
+  return articulationOf[c.a] >= 0 || articulationOf[c.b] >= 0;
+}
+
 // A contact is a spring of this many periods in a substep: above a quarter the energy of stacks
 // rises, below it substeps are wasted; and its damping ratio. Against what cannot move it is twice
-// as stiff.
-Softness softnessOf(const Bodies& b, const KeptContact& c) {
+// as stiff, and where joints hold more behind a body than the mass that the spring is of.
+Softness SmallSteps::Impl::softnessOf(const Bodies& b, const KeptContact& c) const {
   constexpr double kPeriods = 0.25, kDamping = 2;
   const auto softness = [](double periods, double zeta) {
     const double omega = 2 * kPi * periods;  // omega h
@@ -37,7 +42,8 @@ Softness softnessOf(const Bodies& b, const KeptContact& c) {
   };
   static const Softness between = softness(kPeriods, kDamping);
   static const Softness against = softness(2 * kPeriods, kDamping / 2);
-  return b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0 ? between : against;
+  const bool isHeavier = isJointed(c) && !meetsResponse(c);
+  return b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0 && !isHeavier ? between : against;
 }
 
 // What one contact moves: a body, or all of an articulation that responds.
@@ -213,8 +219,7 @@ void SmallSteps::Impl::fill(const Model& w, double h, bool takesTurns, ContactBl
     block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
     placeLane(c, b.pose, block, l);
     // Of a hit nothing is kept where joints would pass it on.
-    const bool isJointed = articulationOf[c.a] >= 0 || articulationOf[c.b] >= 0;
-    fillLoads(c, h, takesTurns && isJointed, block, l);
+    fillLoads(c, h, takesTurns && isJointed(c), block, l);
   }
 }
 

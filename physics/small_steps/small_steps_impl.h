@@ -117,7 +117,7 @@ struct SmallSteps::Batch {
   std::vector<LaneStart> before;      // of the motions, when the bodies last knew of them
   std::vector<LaneMass> masses;
   std::vector<LaneInverse> inverses;
-  std::vector<ContactLoads> told;   // by block: what bodies know of; learning: some sweeps ago
+  std::vector<ContactLoads> told;   // by block: what bodies know of
   std::vector<Displacement> given;  // by slot: impulses, and turns in the units of the lanes
   std::vector<BodyId> slots;        // the body of each slot
   std::vector<KeptStart> kept;      // of `bodies`, where joints may have to make their step again
@@ -137,7 +137,6 @@ inline void startRows(LaneMotion& motion) {
 // Lane l of a block: nothing; or the surfaces of a contact at these poses, without its loads.
 void emptyLane(ContactBlock& block, int l);
 void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& block, int l);
-Softness softnessOf(const Bodies& b, const KeptContact& c);
 
 // Of an accuracy's step: a force that is constant.
 template <class C>
@@ -338,6 +337,14 @@ struct SmallSteps::Impl {
   bool fresh = true;          // nothing has stepped yet, or the state came from elsewhere
   bool learning = false;      // what contacts carry: they do not give way, nor push
   std::vector<char> settled;  // then: an island's loads, by its first body
+  struct LoadRound {          // then, by block: what it carried at the last look, and changed by
+    ContactLoads told, change;
+  };
+  std::vector<LoadRound> learnt;
+  void goAhead(const Model& w, Batch& batch);
+  BodyId rootOf(const Model& w, const KeptContact& c) const;
+  bool isJointed(const KeptContact& c) const;
+  Softness softnessOf(const Bodies& b, const KeptContact& c) const;
   void fill(const Model& w, double h, bool takesTurns, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
   void noteDeep(const Model& w, Batch& batch, double h) const;
