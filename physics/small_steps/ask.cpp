@@ -72,7 +72,7 @@ void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch) {
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
       if (block.contact[l] < 0) continue;
       const KeptContact& c = contacts[block.contact[l]];
-      const BodyId root = islands[isMovable(b, c.a) ? c.a : c.b];
+      const BodyId root = rootOf(w, c);
       change[root] += block.change[l];
       const Softness law = softnessOf(b, c);
       const double soft = (1 - law.scale) / (law.scale * law.rate);

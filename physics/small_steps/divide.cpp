@@ -153,6 +153,11 @@ bool SmallSteps::Impl::softStepsNow(const Model& w, const SoftPair& pair) const 
   return steps[softMoverOf(w, pair)] && (!isMovable(w.bodies, pair.body) || steps[pair.body]);
 }
 
+// The island of a contact, by its first body.
+BodyId SmallSteps::Impl::rootOf(const Model& w, const KeptContact& c) const {
+  return islands[moverOf(w.bodies, c)];
+}
+
 // Substeps that a body's island takes at the least.
 int SmallSteps::Impl::leastOf(const Model& w, BodyId i) const {
   if (w.settings.substeps) return *w.settings.substeps;
@@ -197,7 +202,7 @@ void SmallSteps::Impl::divide(Model& w) {
   }
   for (const KeptContact& c : contacts) {
     if (!stepsNow(c)) continue;
-    const BodyId root = islands[moverOf(b, c)];
+    const BodyId root = rootOf(w, c);
     held[root] = Held::kTouching;
     want(root, substepsForApproach(w, c), SubstepLaw::kApproach);
     substeps[root] = std::max(substeps[root], asked[root]);

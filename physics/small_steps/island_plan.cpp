@@ -36,8 +36,7 @@ void SmallSteps::Impl::tell(const Model& w, int parts) const {
   for (std::size_t k = 0; k < batchCount; ++k) {
     countParts(batches[k], plans);
     for (const int c : batches[k].contacts) {
-      const KeptContact& contact = contacts[c];
-      ++plans[islands[isMovable(w.bodies, contact.a) ? contact.a : contact.b]].contacts;
+      ++plans[rootOf(w, contacts[c])].contacts;
     }
     for (const SoftPair& pair : batches[k].softPairs) {
       ++plans[islands[softMoverOf(w, pair)]].softContacts;

@@ -37,10 +37,6 @@ void SmallSteps::Impl::learnLoads(Model& w) {
 
 // By contact of the batch: its island's first body, its block, what that carried when it was last
 // looked at, and its lane.
-BodyId SmallSteps::Impl::rootOf(const Model& w, const KeptContact& c) const {
-  return islands[isMovable(w.bodies, c.a) ? c.a : c.b];
-}
-
 template <typename Visit>
 void SmallSteps::Impl::forEachLane(const Model& w, Batch& batch, Visit&& visit) {
   for (std::size_t k = 0; k < batch.blocks.size(); ++k) {
@@ -126,6 +122,7 @@ void SmallSteps::Impl::learnLoads(Model& w, Batch& batch) {
   forEachLane(w, batch, [&](BodyId root, ContactBlock& block, const LoadRound& round, int l) {
     if (settled[root]) round.told.giveLane(block, l);
   });
+  learnt = {};
   batch.sweeps = 1;
   for (int i = 0; i < 2; ++i) takeOver(w, batch, h);  // as if it had been for two steps
   ask(w, batch, h);

@@ -77,8 +77,7 @@ void SmallSteps::Impl::addWork(const Model& w, const Batch& batch, std::vector<d
     const ContactBlock& block = batch.blocks[k];
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
       if (block.contact[l] < 0) continue;
-      const KeptContact& c = contacts[block.contact[l]];
-      work[islands[isMovable(w.bodies, c.a) ? c.a : c.b]] += works[k].of[l];
+      work[rootOf(w, contacts[block.contact[l]])] += works[k].of[l];
     }
   }
 }
@@ -133,8 +132,7 @@ void SmallSteps::Impl::boundWork(Model& w, Batch& batch, const JointStage& stage
     bool some = false;
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
       if (block.contact[l] < 0) continue;
-      const KeptContact& c = contacts[block.contact[l]];
-      const double share = change[islands[isMovable(w.bodies, c.a) ? c.a : c.b]];
+      const double share = change[rootOf(w, contacts[block.contact[l]])];
       shares.of[l] = static_cast<float>(share);
       some = some || share > 0;
     }
