@@ -32,7 +32,8 @@ bool SmallSteps::Impl::isJointed(const KeptContact& c) const {
 
 // A contact is a spring of this many periods in a substep: above a quarter the energy of stacks
 // rises, below it substeps are wasted; and its damping ratio. Against what cannot move it is twice
-// as stiff, and where joints hold more behind a body than the mass that the spring is of.
+// as stiff with half of the damping; and as stiff, but damped, where joints hold more behind a body
+// than the mass that the spring is of: figures that lie on stairs would jitter.
 Softness SmallSteps::Impl::softnessOf(const Bodies& b, const KeptContact& c) const {
   constexpr double kPeriods = 0.25, kDamping = 2;
   const auto softness = [](double periods, double zeta) {
@@ -42,8 +43,9 @@ Softness SmallSteps::Impl::softnessOf(const Bodies& b, const KeptContact& c) con
   };
   static const Softness between = softness(kPeriods, kDamping);
   static const Softness against = softness(2 * kPeriods, kDamping / 2);
-  const bool isHeavier = isJointed(c) && !meetsResponse(c);
-  return b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0 && !isHeavier ? between : against;
+  static const Softness jointed = softness(2 * kPeriods, kDamping);
+  if (!(b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0)) return against;
+  return isJointed(c) && !meetsResponse(c) ? jointed : between;
 }
 
 // What one contact moves: a body, or all of an articulation that responds.
