@@ -52,21 +52,21 @@ auto sameOf(const PlannedIslands& island) {
   const physics::AccuracyReport steps =
       island.steps ? island.steps->steps : physics::AccuracyReport{};
   return std::tuple(p.bodies, p.flies, p.trees, p.loops, p.joints, p.ropes, p.meshes, p.links,
-                    p.contacts, p.softContacts, p.substeps, p.sweeps, p.law, p.halves,
-                    steps.accepted, steps.order);
+                    p.contacts, p.softContacts, p.substeps, p.sweeps, p.law, steps.accepted,
+                    steps.order);
 }
 
 using Islands = std::map<physics::BodyId, PlannedIslands>;
 
-// An island that goes in halves tells of both.
-void add(const physics::IslandSteps& half, std::optional<physics::IslandSteps>& all) {
+// An island that takes its step in parts tells of each.
+void add(const physics::IslandSteps& part, std::optional<physics::IslandSteps>& all) {
   if (!all) {
-    all = half;
+    all = part;
     return;
   }
   physics::AccuracyReport& sum = all->steps;
-  const physics::AccuracyReport& steps = half.steps;
-  all->time += half.time;
+  const physics::AccuracyReport& steps = part.steps;
+  all->time += part.time;
   sum.accepted += steps.accepted;
   sum.rejected += steps.rejected;
   sum.order = std::max(sum.order, steps.order);

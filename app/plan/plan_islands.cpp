@@ -68,7 +68,7 @@ std::string lineOf(const PlannedIslands& island) {
   if (island.steps) return text + "; " + accuracyText(*island.steps);
   text += fmt::format("; {}{}", many(p.substeps, "substep", "substeps"), wordsOf(p.law).text);
   text += fmt::format(", {}", many(p.sweeps, "sweep", "sweeps"));
-  return p.halves ? text + ", two looks" : text;
+  return text;
 }
 
 Json accuracyJson(const physics::IslandSteps& of) {
@@ -119,7 +119,6 @@ Json islandsJson(const Plan& plan) {
                    {"substeps", p.substeps},
                    {"sweeps", p.sweeps},
                    {"asked_by", wordsOf(p.law).word},
-                   {"halves", p.halves},
                    {"accuracy", group.steps ? accuracyJson(*group.steps) : Json()}});
   }
   return all;

@@ -22,8 +22,8 @@ namespace {
 // are carried by both bodies, so that their gaps are off by the square of it.
 constexpr double kStill = 1e-4, kStillInMotion = 3e-3;
 constexpr double kStillOfMargin = 0.25;  // then no point that is near was missed
-constexpr double kLooksInMotion = 2;  // it is kept for, so that what comes to rest is looked at
-constexpr double kShort = 0.1;  // of the thickness
+constexpr double kLooksInMotion = 2;     // it is kept for, so that what comes to rest is looked at
+constexpr double kShort = 0.1;           // of the thickness
 constexpr double kSpare = 0.1;  // of the margin: looked further than asked, so that manifolds last
 
 // The most that two items can come closer during the step along n, from b to a.
@@ -124,14 +124,15 @@ struct Collider::Impl {
     found.pose = pose;
     const double near = b.isPlane || isShort(a, b, reach - step.margin) ? reach : step.margin;
     if (b.solid.kind == Kind::triangles) return lookAtMesh(watch, found, a, b, near, reach);
-    watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, found.manifold);
+    const double turn = a.turn + b.turn;
+    watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, turn, found.manifold);
     watch.setNormal(found.manifold.normal);
     ++watch.calls;
     const bool onTheWay = watch.distance > near && watch.distance <= reach &&
                           watch.distance <= near + approach(a, b, b.R * watch.normal());
     if (onTheWay) watch.calls += lookAlong(found.manifold, a, b);
     watch.count = static_cast<std::uint8_t>(found.manifold.count);
-    watch.known = !onTheWay || watch.count == 0;
+    watch.known = watch.count == 0 || (!onTheWay && !turnsFar(a.solid, b.solid, turn));
     if (a.isPart || b.isPart) toBodies(a, b, found.manifold);
   }
 
@@ -174,8 +175,8 @@ struct Collider::Impl {
     const double part = firstTouch(a.solid, wayA, b.solid, wayB, close, calls).value_or(1.0);
     const Relative pose = collision::relativePose(along(wayA, part), along(wayB, part));
     const double near = std::max(close, step.margin);
-    const double keep = near + (1 - part) * approach(a, b);
-    touch(a.solid, b.solid, pose, near, keep, manifold);
+    const double keep = near + (1 - part) * approach(a, b), turn = (1 - part) * (a.turn + b.turn);
+    touch(a.solid, b.solid, pose, near, keep, turn, manifold);
     return static_cast<std::uint8_t>(calls);
   }
 

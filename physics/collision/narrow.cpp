@@ -16,6 +16,9 @@ namespace physics::collision {
 namespace {
 
 constexpr double kRimDeeper = 1e-4;  // a rim has no corners to keep to
+// Of the way that corners turn by until the next look: half of it on the average, at half of their
+// reach. What faces is as near as what is nearest now if it is further by no more.
+constexpr double kShareOfTurn = 0.25;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 Line placed(const Line& line, const Relative& pose) {
@@ -110,15 +113,19 @@ double touchOverlapping(const Solid& a, const Solid& b, const Relative& pose, Ax
   return axis.separation - a.rounding - b.rounding;
 }
 
+// Separations that differ by less are one: corners may turn by `turn` until the next look.
+double toleranceOf(const Solid& a, const Solid& b, double turn) {
+  return std::max(kFlat * smallerSize(a, b), kShareOfTurn * turn);
+}
+
 // Two cores with facets and edges. A facet or line is taken when one of its points is at the
 // distance that the directions promise; then no other can be nearer. Otherwise the nearest points
 // decide. `faceTried`: touchBoxFace() would not have the preferred one, if that is a facet.
 double touchCores(const Solid& a, const Solid& b, const Relative& pose, const Axes& axes,
-                  bool faceTried, Contacts& contacts) {
+                  double tolerance, bool faceTried, Contacts& contacts) {
   const double radii = a.rounding + b.rounding;
   const Axis& largest = axes.largest();
   const double separation = largest.separation - radii;
-  const double tolerance = kFlat * smallerSize(a, b);
   const Axis& preferred = axes.preferred(tolerance);
   const bool exact = isExact(a, b);
   for (const Axis* axis : {&preferred, &largest}) {
@@ -137,8 +144,8 @@ double touchCores(const Solid& a, const Solid& b, const Relative& pose, const Ax
 
 // The most frequent case of touchCores(), by the same rules, in the frame of the face.
 bool touchBoxFace(const Solid& a, const Solid& b, const Relative& pose, const Axes& axes,
-                  const Limits& limits, Manifold& out) {
-  const double tolerance = kFlat * smallerSize(a, b), separation = axes.largest().separation;
+                  double tolerance, const Limits& limits, Manifold& out) {
+  const double separation = axes.largest().separation;
   const Axis& axis = axes.preferred(tolerance);
   if (axis.from == Axis::From::lines) return false;
   const bool ofA = axis.from == Axis::From::facetA;
@@ -163,6 +170,10 @@ bool isBoxy(const Solid& a, const Solid& b) {
 
 }  // namespace
 
+bool turnsFar(const Solid& a, const Solid& b, double turn) {
+  return kShareOfTurn * turn > kFlat * smallerSize(a, b);
+}
+
 void touchParting(const Solid& a, const Solid& b, const Relative& pose, const Vec3& n,
                   double separation, Contacts& contacts) {
   const double away = 1e-2 * smallerSize(a, b) - separation;
@@ -178,7 +189,7 @@ void touchParting(const Solid& a, const Solid& b, const Relative& pose, const Ve
 }
 
 double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
-             Manifold& out) {
+             double turn, Manifold& out) {
   const double size = smallerSize(a, b);
   const bool rim = a.kind == Kind::cylinder || b.kind == Kind::cylinder;
   const Limits limits{keep, kTie * size, (rim ? kRimDeeper : kDeeper) * size};
@@ -192,14 +203,14 @@ double touch(const Solid& a, const Solid& b, const Relative& pose, double reach,
   } else if (a.kind <= Kind::sphere) {
     distance = touchPoint(a, b, pose, contacts);
   } else {
-    const double radii = a.rounding + b.rounding;
+    const double radii = a.rounding + b.rounding, tolerance = toleranceOf(a, b, turn);
     const bool boxy = isBoxy(a, b);
     const Axes axes = (boxy ? findBoxAxes : findAxes)(a, b, pose, keep + radii);
     const double separation = axes.largest().separation - radii;
     out.normal = axes.largest().n;
     if (separation > reach) return separation;
-    if (boxy && touchBoxFace(a, b, pose, axes, limits, out)) return separation;
-    distance = touchCores(a, b, pose, axes, boxy, contacts);
+    if (boxy && touchBoxFace(a, b, pose, axes, tolerance, limits, out)) return separation;
+    distance = touchCores(a, b, pose, axes, tolerance, boxy, contacts);
   }
   out.normal = contacts.n;
   if (distance <= reach) finish(contacts, pose, limits, out);
@@ -217,7 +228,7 @@ Apart apart(const Solid& a, const Solid& b, const Relative& pose) {
     return {axes.largest().separation - a.rounding, axes.largest().n};
   }
   Manifold manifold;
-  const double distance = touch(a, b, pose, kInfinite, kInfinite, manifold);
+  const double distance = touch(a, b, pose, kInfinite, kInfinite, 0, manifold);
   return {distance, manifold.normal};
 }
 

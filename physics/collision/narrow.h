@@ -10,9 +10,13 @@ namespace physics::collision {
 // points whose gap is at most `keep` and returns the distance (negative: depth along the normal);
 // otherwise out.count is 0 and the answer is a lower bound of the distance, above `reach`: they are
 // that far apart along out.normal. It is the best bound of the directions tried unless above
-// `keep`.
+// `keep`. `turn` [m]: what corners may turn by before the two are looked at again. Faces that are
+// nearly parallel meet with all of their corners then, though two of their edges are nearer now.
 double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
-             Manifold& out);
+             double turn, Manifold& out);
+
+// Whether that decides which of the two features touch.
+bool turnsFar(const Solid& a, const Solid& b, double turn);
 
 // A lower bound of the distance, along n (from b to a, b's frame), quickly: not less than a third
 // of it, and below zero only when they overlap.

@@ -132,9 +132,9 @@ void SoftCollider::look(int index, const Rigid& rigid, std::span<const Pose> sta
   }
   const bool swap = placed.solid.kind > rigid.solid.kind;  // a capsule against a sphere
   if (swap) {
-    touch(rigid.solid, placed.solid, inverse(pose), reach, reach, manifold);
+    touch(rigid.solid, placed.solid, inverse(pose), reach, reach, 0, manifold);
   } else {
-    touch(placed.solid, rigid.solid, pose, reach, reach, manifold);
+    touch(placed.solid, rigid.solid, pose, reach, reach, 0, manifold);
   }
   take(index, placed.solid, rigid, pose, manifold, swap);
 }

@@ -88,16 +88,16 @@ bool SmallSteps::Impl::advanceAccurately(Model& w, BodyId root, double dt, Accur
 }
 
 // Those that no contact, of points neither, may push now.
-void SmallSteps::Impl::advanceAccurately(Model& w, double dt, AccuracyReport& report) {
+void SmallSteps::Impl::advanceAccurately(Model& w, AccuracyReport& report) {
   if (accurate.empty()) return;
   const auto meetsSoft = [&](BodyId root) {
     return std::any_of(softPairs.begin(), softPairs.end(),
                        [&](const SoftPair& pair) { return islands[softMoverOf(w, pair)] == root; });
   };
-  for (const BodyId i : stepping) {
+  for (const BodyId i : w.bodies.active) {
     const BodyId root = islands[i];
     if (i != root || held[root] == Held::kTouching || meetsSoft(root)) continue;
-    if (advanceAccurately(w, root, dt, report)) batchOf[root] = kByItself;
+    if (advanceAccurately(w, root, w.settings.dt, report)) batchOf[root] = kByItself;
   }
 }
 

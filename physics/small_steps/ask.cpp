@@ -7,10 +7,10 @@
 namespace physics {
 namespace {
 
-// What contacts may give way by on the average of their load: as a share of the smaller body, or of
-// what the two move past each other in a step, whose end is known no better than that, but never by
-// a larger share of the body than meshes.
-constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 0.1;
+// What contacts may give way by on the average of their load: as a share of the smaller body, or
+// what the two move past each other in a substep of the longest, within which they meet, but never
+// by a larger share of the body than meshes.
+constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 1.0 / kLeastSwept;
 // Of what the springs are drawn by at rest nothing shows, but a column of n bodies that stand on
 // springs buckles under its own weight where the lowest gives way by 2 a / n^2 (7.84 EI = q L^3).
 // On the average of the load that is 0.38 of a cube's radius over (n/2)^2, n/2 being how often the
@@ -21,8 +21,10 @@ constexpr double kLargestTurn =
 // Of its weight, what a body with joints may carry while contacts and joints take turns: a round
 // brings about as much as it weighs up to the joints, and a substep has three.
 constexpr double kMostCarried = 4;
-// What the last velocity sweep may change, of the energy that an island has in g h^2 and in motion.
-constexpr double kRest = 1e-6;
+// What the last velocity sweep may change, of the energy that an island has in g h^2, so that what
+// stands comes to rest, and of that in motion of what touches past each other: the way of that is
+// of first order.
+constexpr double kRest = 1e-6, kMotion = 1e-3;
 constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved again in each
 
 // What goes with h^2 and is `times` too large.
@@ -50,23 +52,22 @@ double SmallSteps::Impl::sagOf(BodyId root) const {
   return (sag[root] + drawn[root] * kLargestSag / small) / load[root];
 }
 
-// The energy of islands, by their first body, that a sweep may change a share of.
+// The energy of islands, by their first body, that the last sweep may change.
 void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch, double h) {
   const Bodies& b = w.bodies;
-  const double g2 = w.settings.gravity ? w.settings.gravity->squaredNorm() : 0;
-  const double fall = std::sqrt(g2) * h * h;
+  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0, fall = g * h * h;
   for (const BodyId i : batch.bodies) {
     energy[i] = change[i] = load[i] = sag[i] = drawn[i] = carried[i] = weight[i] = 0;
   }
   for (const BodyId i : batch.bodies) {
     if (b.motion[i] != Motion::kDynamic) continue;
-    energy[islands[i]] += b.mass[i] * (g2 * h * h * h * h + moved[i].u.squaredNorm());
+    energy[islands[i]] += kRest * b.mass[i] * fall * fall;
     weight[islands[i]] += b.mass[i] * fall;
   }
 }
 
 // The sag of a contact under what it has carried for two steps, and what the last sweep changed.
-void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch) {
+void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch, double h) {
   const Bodies& b = w.bodies;
   for (const ContactBlock& block : batch.blocks) {
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
@@ -74,6 +75,9 @@ void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch) {
       const KeptContact& c = contacts[block.contact[l]];
       const BodyId root = rootOf(w, c);
       change[root] += block.change[l];
+      const double mass = 1 / (b.inverse[c.a].m + b.inverse[c.b].m);
+      energy[root] +=
+          kMotion * mass * h * h * (b.velocity[c.a].v - b.velocity[c.b].v).squaredNorm();
       const Softness law = softnessOf(b, c);
       const double soft = (1 - law.scale) / (law.scale * law.rate);
       const double size = std::min(radius[c.a], radius[c.b]);
@@ -172,7 +176,7 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   askJoints(batch);
   askSoft(w, batch);
   weighMotion(w, batch, h);
-  weighContacts(w, batch);
+  weighContacts(w, batch, h);
   askFiner(w, batch);
   const int most = batch.takesTurns() ? kMostJointedSweeps : kMostSweeps;
   for (const BodyId i : batch.bodies) {
@@ -182,9 +186,9 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
     }
     const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;
-    if (relative > kRest) askedSweeps[i] = std::min(most, batch.sweeps + 1);
+    if (relative > 1) askedSweeps[i] = std::min(most, batch.sweeps + 1);
     if (learning) askedSweeps[i] = most;  // they go down where the motion allows it
-    if (!learning && relative < 0.1 * kRest) askedSweeps[i] = std::max(1, batch.sweeps - 1);
+    if (!learning && relative < 0.1) askedSweeps[i] = std::max(1, batch.sweeps - 1);
   }
 }
 

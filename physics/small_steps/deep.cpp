@@ -22,10 +22,10 @@ void forEachOverlap(std::span<const ContactBlock> blocks, F&& f) {
 
 }  // namespace
 
-// The deepest of these at every body and at those that it overlaps. Were all of them pushed alike,
-// a crowd could balance with the one inside the other: around the deepest the others are pushed in
-// proportion to their depth, which is how springs unpack. Figures come apart as their joints let
-// them, in turns with these.
+// The deepest of these at every body and at those around it that a substep's pushes reach. Were all
+// of them pushed alike, a crowd could balance with the one inside the other: around the deepest the
+// others are pushed in proportion to their depth, which is how springs unpack. Figures come apart
+// as their joints let them, in turns with these.
 void SmallSteps::Impl::noteDeep(const Model& w, Batch& batch, double h) const {
   const float push = static_cast<float>(w.settings.contact->maxSeparationSpeed * h);
   batch.isDeep = false;
@@ -40,11 +40,14 @@ void SmallSteps::Impl::noteDeep(const Model& w, Batch& batch, double h) const {
   });
   if (!batch.isDeep) return;
   for (LaneMotion& motion : batch.motions) motion.deepest = motion.own;
-  forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float) {
-    LaneMotion &a = batch.motions[block.bodyA[l]], &b = batch.motions[block.bodyB[l]];
-    if (block.bodyA[l] > 0) a.deepest = std::max(a.deepest, b.own);
-    if (block.bodyB[l] > 0) b.deepest = std::max(b.deepest, a.own);
-  });
+  for (int ring = 0; ring < kPositionSweeps; ++ring) {
+    forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float) {
+      LaneMotion &a = batch.motions[block.bodyA[l]], &b = batch.motions[block.bodyB[l]];
+      if (block.bodyA[l] > 0) a.deepest = std::max(a.deepest, b.own);
+      if (block.bodyB[l] > 0) b.deepest = std::max(b.deepest, a.own);
+    });
+    for (LaneMotion& motion : batch.motions) motion.own = motion.deepest;
+  }
 }
 
 }  // namespace physics

@@ -144,15 +144,6 @@ void SmallSteps::Impl::joinSoft(const Model& w, const SoftPair& pair) {
   join(w.bodies, islands, softMoverOf(w, pair), pair.body);
 }
 
-bool SmallSteps::Impl::touchesNow(const Bodies& b, const KeptContact& c) const {
-  const auto waits = [&](BodyId i) { return isMovable(b, i) && !steps[i]; };
-  return !waits(c.a) && !waits(c.b);
-}
-
-bool SmallSteps::Impl::softStepsNow(const Model& w, const SoftPair& pair) const {
-  return steps[softMoverOf(w, pair)] && (!isMovable(w.bodies, pair.body) || steps[pair.body]);
-}
-
 // The island of a contact, by its first body.
 BodyId SmallSteps::Impl::rootOf(const Model& w, const KeptContact& c) const {
   return islands[moverOf(w.bodies, c)];
@@ -167,30 +158,21 @@ int SmallSteps::Impl::leastOf(const Model& w, BodyId i) const {
   return isSwept || isPoint || deformableOf[i] >= 0 ? kLeastSwept : kLeastSolved;
 }
 
-// Of those that step now: islands by constraints and contacts, and what each asks for.
+// Islands by constraints and contacts, and what each asks for.
 void SmallSteps::Impl::divide(Model& w) {
   const Bodies& b = w.bodies;
-  const auto stepsNow = [&](const KeptContact& c) { return touchesNow(b, c); };
-  stepping.clear();
-  for (const BodyId i : b.active) {
-    if (steps[i]) stepping.push_back(i);
-  }
   islands = jointIslands(w);
-  for (const KeptContact& c : contacts) {
-    if (stepsNow(c)) join(b, islands, c.a, c.b);
-  }
-  for (const SoftPair& pair : softPairs) {
-    if (softStepsNow(w, pair)) joinSoft(w, pair);
-  }
-  settle(islands, stepping);
-  for (const BodyId i : stepping) {
+  for (const KeptContact& c : contacts) join(b, islands, c.a, c.b);
+  for (const SoftPair& pair : softPairs) joinSoft(w, pair);
+  settle(islands, b.active);
+  for (const BodyId i : b.active) {
     batchOf[i] = -1;
     held[i] = Held::kNot;
     joined[i] = Joined::kNot;
     substeps[i] = 1;
     sweeps[i] = 1;
   }
-  for (const BodyId i : stepping) {
+  for (const BodyId i : b.active) {
     const BodyId root = islands[i];
     substeps[root] = std::max(substeps[root], asked[i]);
     sweeps[root] = std::max(sweeps[root], askedSweeps[i]);
@@ -201,7 +183,6 @@ void SmallSteps::Impl::divide(Model& w) {
     if (articulationOf[i] >= 0 || deformableOf[i] >= 0) held[root] = Held::kJoined;
   }
   for (const KeptContact& c : contacts) {
-    if (!stepsNow(c)) continue;
     const BodyId root = rootOf(w, c);
     held[root] = Held::kTouching;
     want(root, substepsForApproach(w, c), SubstepLaw::kApproach);
@@ -209,21 +190,20 @@ void SmallSteps::Impl::divide(Model& w) {
   }
   for (const SoftPair& pair : softPairs) {
     Held& island = held[islands[softMoverOf(w, pair)]];
-    if (softStepsNow(w, pair)) island = std::max(island, Held::kJoined);
+    island = std::max(island, Held::kJoined);
   }
-  for (const BodyId i : stepping) {
+  for (const BodyId i : b.active) {
     substeps[islands[i]] = std::max(substeps[islands[i]], leastOf(w, i));
   }
 }
 
-// Contacts of points and links to the batch of their island; those that wait stay with the world.
+// Contacts of points and links to the batch of their island.
 void SmallSteps::Impl::assignSoft(Model& w) {
   for (const SoftPair& pair : softPairs) {
-    if (softStepsNow(w, pair)) batches[batchOf[softMoverOf(w, pair)]].softPairs.push_back(pair);
+    batches[batchOf[softMoverOf(w, pair)]].softPairs.push_back(pair);
   }
   std::erase_if(w.softContacts, [&](const SoftContact& c) {
     const BodyId body = isMovable(w.bodies, c.from) ? c.from : c.to;
-    if (!steps[body]) return false;
     if (batchOf[body] >= 0) batches[batchOf[body]].soft.push_back(c);
     return true;
   });
@@ -233,9 +213,8 @@ void SmallSteps::Impl::assignSoft(Model& w) {
 void SmallSteps::Impl::assign(Model& w) {
   batchCount = 0;
   free.clear();
-  for (const BodyId i : stepping) assign(w, i);
+  for (const BodyId i : w.bodies.active) assign(w, i);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    if (!touchesNow(w.bodies, contacts[k])) continue;
     batches[batchOf[moverOf(w.bodies, contacts[k])]].contacts.push_back(static_cast<int>(k));
   }
   assignSoft(w);

@@ -32,11 +32,11 @@ void SmallSteps::Impl::fly(const Model& w, BodyId i, double dt, Pose& pose, Velo
   pose.q = (exponential(theta) * pose.q).normalized();
 }
 
-void SmallSteps::Impl::fly(Model& w, double dt) {
+void SmallSteps::Impl::fly(Model& w) {
   Bodies& b = w.bodies;
   for (const BodyId i : free) {
     b.start[i] = b.pose[i];
-    fly(w, i, dt, b.pose[i], b.velocity[i]);
+    fly(w, i, w.settings.dt, b.pose[i], b.velocity[i]);
   }
 }
 

@@ -19,16 +19,15 @@ void SmallSteps::Impl::countParts(const Batch& batch, std::map<BodyId, IslandPla
   }
 }
 
-// After divide: those that step now, `parts` of them to a step.
-void SmallSteps::Impl::tell(const Model& w, int parts) const {
+// After divide.
+void SmallSteps::Impl::tell(const Model& w) const {
   if (!IslandListening::isHeard()) return;
   std::map<BodyId, IslandPlan> plans;
-  for (const BodyId i : stepping) {
+  for (const BodyId i : w.bodies.active) {
     IslandPlan& plan = plans[islands[i]];
     if (plan.bodies++ == 0) plan.first = i;
     plan.flies = batchOf[i] < 0;
     if (plan.flies) continue;
-    plan.halves = parts > 1;
     plan.substeps = substeps[islands[i]];
     plan.sweeps = sweeps[islands[i]];
     if (asked[i] == plan.substeps && asked[i] > leastOf(w, i)) plan.law = law[i];

@@ -28,7 +28,6 @@ struct IslandPlan {
   int softContacts = 0;          // points and links that may meet a body
   int substeps = 0, sweeps = 0;  // a step, a substep
   SubstepLaw law = SubstepLaw::kLeast;
-  bool halves = false;  // fast: it looks for contacts twice a step
 };
 
 // How an island came through its step by an accuracy.
@@ -41,7 +40,7 @@ struct IslandSteps {
   AccuracyReport steps;
 };
 
-// What steps on this thread tell while it lives: every island, twice where it goes in halves.
+// What steps on this thread tell while it lives: every island.
 template <class Told>
 class IslandsHeard {
  public:

@@ -24,7 +24,6 @@ void SmallSteps::Impl::learnLoads(Model& w) {
   look(w);
   if (!contacts.empty()) {
     learning = true;
-    for (const BodyId i : w.bodies.active) steps[i] = 1;
     divide(w);
     assign(w);
     for (std::size_t k = 0; k < batchCount; ++k) learnLoads(w, batches[k]);

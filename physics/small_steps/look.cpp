@@ -1,4 +1,4 @@
-// The contacts of a step, and which islands look for them twice.
+// The contacts of a step.
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -29,8 +29,8 @@ std::span<const Found> findContacts(Model& w) {
 // look met bodies that sleep, which are awake now.
 bool SmallSteps::Impl::lookOnce(Model& w) {
   Bodies& b = w.bodies;
+  const double dt = w.settings.dt;
   for (const BodyId i : b.active) {
-    const double dt = halved[i] ? 0.5 * w.settings.dt : w.settings.dt;
     w.ahead[i] = b.pose[i];
     if (w.settings.gravity && b.motion[i] == Motion::kDynamic) {
       w.ahead[i].x += dt * dt * *w.settings.gravity;
@@ -98,57 +98,6 @@ void SmallSteps::Impl::look(Model& w) {
   if (!w.touches && w.softCollider.empty()) return;
   while (!lookOnce(w)) {
   }
-}
-
-// The bodies of islands with a fast one step now. False: there is none.
-bool SmallSteps::Impl::chooseFast(Model& w) {
-  const Bodies& b = w.bodies;
-  if (!w.touches || w.settings.substepCount() < 2) return false;
-  const double speed = w.settings.contact->margin / w.settings.dt;
-  bool some = false;
-  for (const BodyId i : b.active) {
-    const Velocity& v = b.velocity[i];
-    steps[i] = v.v.norm() + radius[i] * v.w.norm() > speed;
-    some = some || steps[i];
-  }
-  if (some) spread(w);
-  return some;
-}
-
-// What one body of an island does all of them do.
-void SmallSteps::Impl::spread(Model& w) {
-  const Bodies& b = w.bodies;
-  islands = jointIslands(w);
-  for (const KeptContact& c : contacts) join(b, islands, c.a, c.b);
-  for (const SoftPair& pair : softPairs) joinSoft(w, pair);
-  settle(islands, b.active);
-  for (const BodyId i : b.active) {
-    if (steps[i]) steps[islands[i]] = 1;
-  }
-  for (const BodyId i : b.active) steps[i] = steps[islands[i]];
-}
-
-// Bodies that one which made half of its step is about to meet make theirs now. False: there is
-// none.
-bool SmallSteps::Impl::chooseMet(Model& w) {
-  for (const BodyId i : w.bodies.active) steps[i] = halved[i];
-  spread(w);
-  bool some = false;
-  for (const BodyId i : w.bodies.active) {
-    steps[i] = steps[i] && !halved[i];
-    some = some || steps[i];
-  }
-  return some;
-}
-
-// Those that have yet to make the second half, or all of their step. False: there is none.
-bool SmallSteps::Impl::choose(const Model& w, int parts) {
-  bool some = false;
-  for (const BodyId i : w.bodies.active) {
-    steps[i] = halved[i] == (parts == 2);
-    some = some || steps[i];
-  }
-  return some;
 }
 
 }  // namespace physics

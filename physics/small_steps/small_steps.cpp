@@ -52,8 +52,6 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   law.resize(bodies);
   batchOf.resize(bodies);
   slotOf.resize(bodies);
-  halved.resize(bodies);
-  steps.resize(bodies);
   colours.resize(bodies);
   coloursFixed.resize(bodies);
   inertiaOf.resize(bodies);
@@ -102,22 +100,22 @@ void SmallSteps::Impl::finish(Model& w, Batch& batch, double h) {
   for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
 }
 
-// Those that step now, one of `parts` of a step that begins at `from`: islands, and batches, to
-// which others are added while they step.
-void SmallSteps::Impl::advancePart(Model& w, int parts, double from, StepReport& report) {
-  const double dt = w.settings.dt / parts;
-  now = from;
+// Islands, and batches, to which others are added while they step.
+void SmallSteps::Impl::advance(Model& w, StepReport& report) {
+  const double dt = w.settings.dt;
+  look(w);
+  now = w.time();
   divide(w);
-  advanceAccurately(w, dt, report.accuracy);
+  advanceAccurately(w, report.accuracy);
   assign(w);
-  tell(w, parts);
-  fly(w, dt);
+  tell(w);
+  fly(w);
   report.work.moves += static_cast<std::int64_t>(free.size());
   for (std::size_t k = 0; k < batchCount; ++k) {
-    const int count = (batches[k].substeps + parts - 1) / parts;
+    const int count = batches[k].substeps;
     const double h = dt / count;
-    now = from;
-    report.substeps = std::max(report.substeps, parts * count);
+    now = w.time();
+    report.substeps = std::max(report.substeps, count);
     layOut(w, batches[k]);
     keepStart(w, batches[k]);
     if (stepsAccurately(w, batches[k])) {
@@ -130,28 +128,6 @@ void SmallSteps::Impl::advancePart(Model& w, int parts, double from, StepReport&
   }
   gatherSoft(w);
   checkFinite(w, report);
-}
-
-// Islands with a body that moves by more than contacts are watched within step in two halves, with
-// another look in the middle, and so do those that they meet there. The others step in one go.
-void SmallSteps::Impl::advance(Model& w, StepReport& report) {
-  std::fill(halved.begin(), halved.end(), 0);  // of those as well that this step wakes
-  look(w);
-  bool some = chooseFast(w);
-  for (const bool again : {false, true}) {
-    if (!some) break;
-    advancePart(w, 2, w.time(), report);
-    if (report.notFinite) return;
-    for (const BodyId i : w.bodies.active) halved[i] = halved[i] || steps[i];
-    if (again) break;  // these are slow: what was found of them before holds
-    look(w);
-    some = chooseMet(w);
-  }
-  for (const int parts : {1, 2}) {
-    if (!choose(w, parts)) continue;
-    advancePart(w, parts, w.time() + (1 - 1.0 / parts) * w.settings.dt, report);
-    if (report.notFinite) return;
-  }
 }
 
 void SmallSteps::step(Model& w, const std::function<void()>& wake, StepReport& report) {

@@ -13,7 +13,7 @@
 //   accurately.cpp    islands that step by an accuracy, and touch nothing
 //   accurately_touching.cpp  and those that touch
 //   bounce.cpp        restitution
-//   look.cpp          the contacts of a step, and which islands look for them twice
+//   look.cpp          the contacts of a step
 //   again.cpp         steps that joints could not be closed in, with more substeps
 //   ask.cpp           how many substeps and sweeps the next step takes
 //   learn.cpp         what contacts carry at the start
@@ -182,8 +182,6 @@ struct SmallSteps::Impl {
   std::vector<Batch> batches;
   std::size_t batchCount = 0;
   Islands islands;
-  std::vector<char> halved, steps;                   // by body: made half of its step; steps now
-  std::vector<BodyId> stepping;                      // those that step now
   std::vector<int> batchOf, slotOf;                  // by body
   std::vector<std::uint64_t> colours, coloursFixed;  // by body: taken by its contacts
   std::vector<char> responding;                      // by articulation: contacts see its mass
@@ -209,7 +207,7 @@ struct SmallSteps::Impl {
   void learn(Model& w);
   void learnAccurate(Model& w, const std::vector<std::vector<JointRef>>& rows);
   static void takeForces(Model& w);
-  void advanceAccurately(Model& w, double dt, AccuracyReport& report);
+  void advanceAccurately(Model& w, AccuracyReport& report);
   bool advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report);
   bool stepsAccurately(const Model& w, const Batch& batch) const;
   void advanceAccurately(Model& w, Batch& batch, double dt, int count, StepReport& report);
@@ -234,11 +232,6 @@ struct SmallSteps::Impl {
   void makeRoom(std::size_t bodies);
   void look(Model& w);
   bool lookOnce(Model& w);
-  bool chooseFast(Model& w);
-  bool chooseMet(Model& w);
-  bool choose(const Model& w, int parts);
-  void spread(Model& w);
-  bool touchesNow(const Bodies& b, const KeptContact& c) const;
   int leastOf(const Model& w, BodyId i) const;
   void divide(Model& w);
   int substepsForApproach(const Model& w, const KeptContact& c) const;
@@ -261,7 +254,6 @@ struct SmallSteps::Impl {
   void layOut(Model& w, Batch& batch);
   BodyId softMoverOf(const Model& w, const SoftPair& pair) const;
   void joinSoft(const Model& w, const SoftPair& pair);
-  bool softStepsNow(const Model& w, const SoftPair& pair) const;
   void assignSoft(Model& w);
   bool lookSoft(Model& w);
   void gatherSoft(Model& w);
@@ -307,7 +299,7 @@ struct SmallSteps::Impl {
   void takeOver(const ContactBlock& block, double h);
   double sagOf(BodyId root) const;
   void weighMotion(const Model& w, const Batch& batch, double h);
-  void weighContacts(const Model& w, const Batch& batch);
+  void weighContacts(const Model& w, const Batch& batch, double h);
   void askJoints(const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
   void askDeformables(Model& w, const Batch& batch, double h);
@@ -318,16 +310,15 @@ struct SmallSteps::Impl {
   void askFiner(const Model& w, const Batch& batch);
   void want(BodyId body, int count, SubstepLaw by);
   void ask(Model& w, const Batch& batch, double h);
-  void fly(Model& w, double dt);
+  void fly(Model& w);
   void fly(const Model& w, BodyId i, double dt, Pose& pose, Velocity& v) const;
   double gapAfter(const Model& w, const Batch& batch, double time);
   double flyToTouch(Model& w, const Batch& batch, double most);
   void rest(Batch& batch);
   void finish(Model& w, Batch& batch, double h);
-  void advancePart(Model& w, int parts, double from, StepReport& report);
   void advance(Model& w, StepReport& report);
   void learnLoads(Model& w);
-  void tell(const Model& w, int parts) const;
+  void tell(const Model& w) const;
   void countParts(const Batch& batch, std::map<BodyId, IslandPlan>& plans) const;
   void learnLoads(Model& w, Batch& batch);
   template <typename Visit>

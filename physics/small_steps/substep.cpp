@@ -12,7 +12,9 @@ namespace {
 // back: what turns the other way in each substep has a mean of none, and stays damped; of a swing a
 // tenth of its damping is left, without which chains under a heavy end gain energy.
 constexpr double kNewSpin = 0.25, kTurnedBack = 0.9;
-constexpr double kResolvedTurn = 0.1;  // rad: what turns further in a substep is damped as well
+// rad: what turns further in a substep is damped as well and, where no joint holds it, turned as it
+// would turn freely: to second order in the step it would gain energy.
+constexpr double kResolvedTurn = 0.1;
 // What joints may be off by before the last step of Newton's, of their arms: joints alone, and
 // where contacts have pushed since and will push again.
 constexpr double kClosed = 1e-7, kNearlyClosed = 1e-4;
@@ -110,8 +112,8 @@ void SmallSteps::Impl::predictTurn(Model& w, BodyId i, double h, double kick, bo
   v.w += kick * (inverse * w.loads[i].torque);
   masses[i].inertia = inverse;
   Vec3 omega = v.w;
+  const bool isResolved = h * h * omega.squaredNorm() < kResolvedTurn * kResolvedTurn;
   if (articulationOf[i] >= 0) {
-    const bool isResolved = h * h * omega.squaredNorm() < kResolvedTurn * kResolvedTurn;
     const Vec3 back = isResolved ? (kTurnedBack * omega).eval() : Vec3::Zero();
     meanSpins[i] += kNewSpin * (back - meanSpins[i]);
   }
@@ -120,7 +122,11 @@ void SmallSteps::Impl::predictTurn(Model& w, BodyId i, double h, double kick, bo
     return;
   }
   const Mat3 inertia = worldInertia(r, b.inertia[i]);
-  if (!isRound) omega = meanSpin(inertia, inverse, omega, h);
+  if (!isRound && !isResolved && articulationOf[i] < 0) {
+    omega = r * freeTurn(b.inertia[i], r.transpose() * omega, h).mean;
+  } else if (!isRound) {
+    omega = meanSpin(inertia, inverse, omega, h);
+  }
   m.theta = h * omega;
   inertias[i] = inertia;
   spins[i] = m.theta;

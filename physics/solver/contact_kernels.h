@@ -44,20 +44,6 @@ inline Lanes workOf(const ContactBlock& m, const LaneMotion* motions) {
   return sum;
 }
 
-// lambda, where it is at most nu_s limit, else nu_d limit its way.
-inline Lanes onSegment(Lanes lambda, Lanes staticLimit, Lanes dynamicLimit) {
-  const Lanes opposite = all(0) - lambda;
-  return wherePositive(lambda - staticLimit, dynamicLimit,
-                       wherePositive(opposite - staticLimit, all(0) - dynamicLimit, lambda));
-}
-
-// The part of |lambda| <= nu_s limit, else of length nu_d limit.
-inline Lanes onDisc(Lanes squared, Lanes staticLimit, Lanes dynamicLimit) {
-  const Lanes beyond = squared - staticLimit * staticLimit;
-  if (positive(beyond) == 0) return all(1);  // nothing slides: no root to wait for
-  return wherePositive(beyond, dynamicLimit / root(larger(squared, all(kTiny))), all(1));
-}
-
 // Twist and friction, where the points carry `normal`, and `turning` about their centre. Returned:
 // the impulse of friction.
 inline Lanes3 sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const Lanes3& between,

@@ -75,5 +75,19 @@ inline void tellOthers(const ContactBlock& m, int i, Lanes delta, Lanes (&v)[kCo
   for (int j = i + 1; j < kCount; ++j) v[j] = v[j] + load(m.coupling[couplingOf(i, j)]) * delta;
 }
 
+// lambda, where it is at most nu_s limit, else nu_d limit its way.
+inline Lanes onSegment(Lanes lambda, Lanes staticLimit, Lanes dynamicLimit) {
+  const Lanes opposite = all(0) - lambda;
+  return wherePositive(lambda - staticLimit, dynamicLimit,
+                       wherePositive(opposite - staticLimit, all(0) - dynamicLimit, lambda));
+}
+
+// The part of |lambda| <= nu_s limit, else of length nu_d limit.
+inline Lanes onDisc(Lanes squared, Lanes staticLimit, Lanes dynamicLimit) {
+  const Lanes beyond = squared - staticLimit * staticLimit;
+  if (positive(beyond) == 0) return all(1);  // nothing slides: no root to wait for
+  return wherePositive(beyond, dynamicLimit / root(larger(squared, all(kTiny))), all(1));
+}
+
 }  // namespace
 }  // namespace physics

@@ -18,6 +18,30 @@ inline void forgetFriction(ContactBlock& m, Lanes deep, Moved& a, Moved& b) {
   store(m.twist, lambda + back);
 }
 
+// Friction of before gives no more than what the points carry now can hold: bodies would gain
+// energy by the rest.
+template <int kCount>
+inline void limitFriction(ContactBlock& m, const Lanes (&lambda)[kCount], Moved& a, Moved& b) {
+  Lanes normal = all(0), turning = all(0);
+  for (int i = 0; i < kCount; ++i) {
+    normal = normal + lambda[i];
+    turning = turning + load(m.point[i].lever) * lambda[i];
+  }
+  const Lanes nuS = load(m.staticFriction), nuD = load(m.dynamicFriction);
+  ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
+  const Lanes last1 = load(t1.lambda), last2 = load(t2.lambda), twisted = load(m.twist);
+  const Lanes share = onDisc(last1 * last1 + last2 * last2, nuS * normal, nuD * normal);
+  const Lanes less1 = last1 * share - last1, less2 = last2 * share - last2;
+  const Lanes kept = onSegment(twisted, nuS * turning, nuD * turning);
+  turn(t1, less1, a, b);
+  turn(t2, less2, a, b);
+  twist(m, kept - twisted, a, b);
+  push(m, load(t1.d) * less1 + load(t2.d) * less2, a, b);
+  store(t1.lambda, last1 + less1);
+  store(t2.lambda, last2 + less2);
+  store(m.twist, kept);
+}
+
 // Where overlaps are, and the share of them that a substep takes back.
 template <int kCount>
 struct Depths {
@@ -79,6 +103,7 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSw
     sum = sum + delta;
   }
   push(m, n * sum, a, b);
+  if (!which.onlyDeep) limitFriction<kCount>(m, lambda, a, b);
   scatter(m.bodyA, load(m.massA), a, motions);
   scatter(m.bodyB, load(m.massB), b, motions);
 }

@@ -203,7 +203,7 @@ TEST_F(PlanCommand, JsonHasTheDocumentedKeys) {
   for (const json& islands : plan.at("islands")) {
     for (const char* key : {"count", "first", "bodies", "flies", "trees", "loops", "joints",
                             "ropes", "meshes", "links", "contacts", "soft_contacts", "substeps",
-                            "sweeps", "asked_by", "halves", "accuracy"}) {
+                            "sweeps", "asked_by", "accuracy"}) {
       EXPECT_TRUE(islands.contains(key)) << key;
     }
   }

@@ -73,21 +73,24 @@ TEST(Sleep, NothingSleepsThatIsStillJoinedToWhatMoves) {
 }
 
 // A ball dropped on a stack that sleeps does what it does to one awake: the two differ by what the
-// stack would have crept meanwhile.
+// stack would have crept meanwhile, and a hit in its middle, which tips it either way, makes of
+// that (measured 1e-9 to 3e-4 m).
 TEST(Sleep, ABallWakesTheStackAndEndsAsWithoutSleep) {
   Settings awake = grounded(), asleep = sleeping();
   awake.method = asleep.method = Method::kSmallSteps;
-  World without = makeStack(awake), with = makeStack(asleep);
-  for (World* world : {&without, &with}) addBody(*world, Sphere{0.4}, Vec3(0, 7.5, 0), 0.5);
-  run(without, 40);
-  EXPECT_EQ(run(with, 40).asleep, 4);
-  bool woke = false;
-  for (int k = 0; k < 60; ++k) {
-    without.step();
-    woke = with.step().asleep == 0 || woke;
+  for (const double height : {7.1, 7.3, 7.5, 7.7, 8.0, 8.3}) {
+    World without = makeStack(awake), with = makeStack(asleep);
+    for (World* world : {&without, &with}) addBody(*world, Sphere{0.4}, Vec3(0, height, 0), 0.5);
+    run(without, 40);
+    EXPECT_EQ(run(with, 40).asleep, 4);
+    bool woke = false;
+    for (int k = 0; k < 60; ++k) {
+      without.step();
+      woke = with.step().asleep == 0 || woke;
+    }
+    EXPECT_TRUE(woke) << height;
+    EXPECT_LT(furthest(without, with), 1e-3) << height;
   }
-  EXPECT_TRUE(woke);
-  EXPECT_LT(furthest(without, with), 1e-5);
 }
 
 TEST(Sleep, RemovingTheSupportWakesWhatStandsOnIt) {

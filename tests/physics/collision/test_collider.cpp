@@ -133,7 +133,8 @@ TEST(Collider, FindsTheSameWhenPairsAreLookedAtInPartsOnTwoThreads) {
     other.join();
     const auto found = parts.collider.gather();
     ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_TRUE(equal(*found[i].manifold, expected[i]));
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_TRUE(equal(*found[i].manifold, expected[i]));
     EXPECT_EQ(parts.collider.counts().narrowPhaseCalls, whole.collider.counts().narrowPhaseCalls);
   }
 }
@@ -189,6 +190,32 @@ TEST(Collider, RefusesWhatItCanNotTake) {
   EXPECT_THROW(pile.collider.add(2, Plane{}, true), std::invalid_argument);
   EXPECT_THROW(pile.find(-1), std::invalid_argument);
   EXPECT_THROW(pile.collider.find({}, {}, 0), std::invalid_argument);
+}
+
+// Nearly parallel faces that overlap: two edges are often the nearest features, but of boxes that
+// turn by more than the faces are apart any corner may touch before the next look.
+TEST(Collider, FacesOfBoxesThatTurnMeetWithAllOfTheirCorners) {
+  Random random(3);
+  int edgesWhenStill = 0;
+  for (int i = 0; i < 300; ++i) {
+    Pose upper{Vec3(random.number(-0.3, 0.3), 0.97, random.number(-0.3, 0.3)), Quat::Identity()};
+    const Quat twist = turned(Vec3::UnitY(), random.number(20, 70));
+    upper.q = turned(random.direction(), random.number(1, 4)) * twist;
+    Collider collider;
+    collider.add(1, Box{Vec3(1, 1, 1)}, true);
+    collider.add(2, Box{Vec3(1, 1, 1)}, false);
+    const std::vector<Pose> start = {{}, upper, {}};
+    const std::span<const Manifold> still = collider.find(start, start, 0.02);
+    ASSERT_EQ(still.size(), 1u);
+    edgesWhenStill += still[0].count == 1;
+    std::vector<Pose> end = start;
+    end[1].q = turned(Vec3::UnitX(), 20) * upper.q;
+    const std::span<const Manifold> turning = collider.find(start, end, 0.02);
+    ASSERT_EQ(turning.size(), 1u);
+    EXPECT_GT(turning[0].count, 2) << i;
+    EXPECT_GT(std::abs(turning[0].normal.y()), 0.99) << i;
+  }
+  EXPECT_GT(edgesWhenStill, 30);
 }
 
 }  // namespace
