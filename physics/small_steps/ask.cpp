@@ -24,7 +24,7 @@ constexpr double kMostCarried = 4;
 // What the last velocity sweep may change, of the energy that an island has in g h^2, so that what
 // stands comes to rest, and of that in motion of what touches past each other: the way of that is
 // of first order.
-constexpr double kRest = 1e-6, kMotion = 1e-3;
+constexpr double kRest = 1e-6, kMotion = 1e-4;
 constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved again in each
 
 // What goes with h^2 and is `times` too large.
