@@ -58,22 +58,6 @@ auto sameOf(const PlannedIslands& island) {
 
 using Islands = std::map<physics::BodyId, PlannedIslands>;
 
-// An island that takes its step in parts tells of each.
-void add(const physics::IslandSteps& part, std::optional<physics::IslandSteps>& all) {
-  if (!all) {
-    all = part;
-    return;
-  }
-  physics::AccuracyReport& sum = all->steps;
-  const physics::AccuracyReport& steps = part.steps;
-  all->time += part.time;
-  sum.accepted += steps.accepted;
-  sum.rejected += steps.rejected;
-  sum.order = std::max(sum.order, steps.order);
-  sum.least = std::min(sum.least, steps.least);
-  sum.estimate += steps.estimate;
-}
-
 std::vector<PlannedIslands> grouped(const Islands& islands) {
   std::vector<PlannedIslands> groups;
   for (const auto& entry : islands) {
@@ -101,7 +85,7 @@ void countWork(const scenes::Scene& scene, Plan& plan) {
   const physics::IslandListening listening(
       [&](const physics::IslandPlan& plan) { islands[plan.first].plan = plan; });
   const physics::StepListening accurate(
-      [&](const physics::IslandSteps& told) { add(told, islands[told.first].steps); });
+      [&](const physics::IslandSteps& told) { islands[told.first].steps = told; });
   simulation.advance();
   physics::StepWork sum;
   std::int64_t kept = 0;

@@ -31,7 +31,8 @@ inline void archive(Archive& a, Bounds& bounds) {
 
 // What it is was added, and its motion is that of the last look.
 inline void archive(Archive& a, Item& item) {
-  auto& [travel, turn, move, body, movable, rests, isPlane, isPart, x, R, solid, inBody] = item;
+  auto& [travel, turn, push, move, body, movable, rests, isPlane, isPart, x, R, solid, inBody] =
+      item;
   a(travel, rests);
 }
 

@@ -31,6 +31,11 @@ double approach(const Item& a, const Item& b, const Vec3& n) {
   return std::max(0.0, -n.dot(a.move - b.move)) + a.turn + b.turn;
 }
 
+// What hits may add to that. Between two that move it is found in the next step.
+double pushOf(const Item& a, const Item& b) {
+  return a.movable && b.movable ? 0 : std::max(a.push, b.push);
+}
+
 // The same in any direction; towards a plane there is but one.
 double approach(const Item& a, const Item& b) {
   if (!b.isPlane) return (a.move - b.move).norm() + a.turn + b.turn;
@@ -112,17 +117,17 @@ struct Collider::Impl {
   void look(Watch& watch) {
     const Item &a = pairs.items()[watch.a], &b = pairs.items()[watch.b];
     Finding& found = pairs.finding(watch);
-    const double reach = step.margin + approach(a, b);
+    const double margin = step.margin + pushOf(a, b), reach = margin + approach(a, b);
     watch.calls = 0;
     watch.isNew = false;
-    if (watch.known && stays(watch, a, b, reach, step.margin)) return;
+    if (watch.known && stays(watch, a, b, reach, margin)) return;
     const Relative pose = relativePose(a, b);
     if (watch.known && holds(watch, found, a, b, pose, reach)) return;
     watch.isNew = watch.known = true;
     watch.travel = a.travel + b.travel;
     watch.reach = reach + kSpare * step.margin;
     found.pose = pose;
-    const double near = b.isPlane || isShort(a, b, reach - step.margin) ? reach : step.margin;
+    const double near = b.isPlane || isShort(a, b, reach - margin) ? reach : margin;
     if (b.solid.kind == Kind::triangles) return lookAtMesh(watch, found, a, b, near, reach);
     const double turn = a.turn + b.turn;
     watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, turn, found.manifold);
@@ -252,11 +257,11 @@ std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<
   return impl_->manifolds;
 }
 
-std::size_t Collider::prepare(std::span<const Pose> start, std::span<const Pose> end,
-                              double margin) {
+std::size_t Collider::prepare(std::span<const Pose> start, std::span<const Pose> end, double margin,
+                              std::span<const double> push) {
   require(margin >= 0, "collider: margin must not be negative");
   if (!impl_) return 0;
-  impl_->pairs.update(start, end, margin);
+  impl_->pairs.update(start, end, margin, push);
   impl_->step = {start, end, margin};
   return impl_->pairs.watches().size();
 }
@@ -305,6 +310,16 @@ double Collider::distance(BodyId a, const Pose& poseA, BodyId b, const Pose& pos
       const Relative pose = relativePose(p.at(poseA), q.at(poseB));
       smallest = std::min(smallest, signedDistance(p.solid, q.solid, pose));
     }
+  }
+  return smallest;
+}
+
+double Collider::thickness(BodyId body) const {
+  double smallest = std::numeric_limits<double>::infinity();
+  if (!impl_) return smallest;
+  const int first = impl_->pairs.indexOf(body);
+  for (int i = first; i < impl_->pairs.endOf(first); ++i) {
+    if (i >= 0) smallest = std::min(smallest, impl_->pairs.items()[i].solid.thickness);
   }
   return smallest;
 }

@@ -72,8 +72,10 @@ class Collider {
   // find() in three parts. prepare() tells how many pairs there are to look at; lookAt() looks at
   // those from `from` up to `to`, in any order and on any thread: a pair is looked at once, and
   // what is found of it depends on no other. `start` and `end` must last until gather(), and what
-  // that tells lasts until the next prepare().
-  std::size_t prepare(std::span<const Pose> start, std::span<const Pose> end, double margin);
+  // that tells lasts until the next prepare(). `push` [m], by BodyId or empty: how much further
+  // than to `end` a hit may take a body; what does not move is looked for that far around it.
+  std::size_t prepare(std::span<const Pose> start, std::span<const Pose> end, double margin,
+                      std::span<const double> push = {});
   void lookAt(std::size_t from, std::size_t to);
   std::span<const Found> gather();
   std::span<const Found> found() const;  // by the last look
@@ -96,6 +98,7 @@ class Collider {
   // Signed distance [m] (negative: depth) of two bodies at these poses; +infinity for a pair
   // without shapes. For measures and tests, not for the step.
   double distance(BodyId a, const Pose& poseA, BodyId b, const Pose& poseB) const;
+  double thickness(BodyId body) const;  // smallest full extent of its parts; +infinity: no shape
 
   // Work done so far, for measures: narrow-phase evaluations and pairs now watched.
   struct Counts {

@@ -37,7 +37,9 @@ Bounds path(const Item& item) {
   const Vec3 size = Vec3::Constant(item.solid.size), turn = Vec3::Constant(item.turn);
   const Bounds turned{(start.low - turn).cwiseMax(item.x - size),
                       (start.high + turn).cwiseMin(item.x + size)};
-  return joined(joined(start, turned), {turned.low + item.move, turned.high + item.move});
+  const Bounds way =
+      joined(joined(start, turned), {turned.low + item.move, turned.high + item.move});
+  return grown(way, item.push);
 }
 
 // Room for more steps like this one, and for a little more in all directions.
@@ -239,12 +241,14 @@ void Pairs::fatten(int i, const Bounds& bounds, double margin) {
 }
 
 // True: every bound has to be taken anew.
-bool Pairs::takeMotions(std::span<const Pose> start, std::span<const Pose> end, bool all) {
-  for (const int i : moving_) {
-    all = takeMotion(i, start[items_[i].body], end[items_[i].body]) || all;
-  }
-  for (const int i : late_) {
-    all = takeMotion(i, start[items_[i].body], end[items_[i].body]) || all;
+bool Pairs::takeMotions(std::span<const Pose> start, std::span<const Pose> end,
+                        std::span<const double> push, bool all) {
+  for (const std::vector<int>* list : {&moving_, &late_}) {
+    for (const int i : *list) {
+      Item& item = items_[i];
+      item.push = push.empty() ? 0 : push[item.body];
+      all = takeMotion(i, start[item.body], end[item.body]) || all;
+    }
   }
   return all;
 }
@@ -257,12 +261,13 @@ void Pairs::takeBounds(int i, double margin, bool all) {
   if (moved_[i]) fatten(i, bounds, margin);
 }
 
-void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin) {
+void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin,
+                   std::span<const double> push) {
   require(start.size() == end.size() && start.size() >= indexOf_.size(),
           "collider: start and end must hold a pose for each body");
   for (const int t : movedTree_) moved_[itemOfTree_[t]] = false;  // of the last time
   movedTree_.clear();
-  if (takeMotions(start, end, margin > margin_)) {
+  if (takeMotions(start, end, push, margin > margin_)) {
     for (int i = 0; i < static_cast<int>(items_.size()); ++i) takeBounds(i, margin, true);
   } else {
     for (const int i : moving_) takeBounds(i, margin, false);

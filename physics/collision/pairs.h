@@ -19,8 +19,10 @@ class Pairs {
   const std::vector<std::pair<BodyId, BodyId>>& ignored() const { return ignored_; }
 
   // Takes the motion of all items over and brings the list up to date: afterwards it holds every
-  // pair whose surfaces come within `margin` of each other between start and end.
-  void update(std::span<const Pose> start, std::span<const Pose> end, double margin);
+  // pair whose surfaces come within `margin` of each other between start and end. `push` [m], by
+  // BodyId or empty: of how much further a hit may take a body, towards what does not move.
+  void update(std::span<const Pose> start, std::span<const Pose> end, double margin,
+              std::span<const double> push);
   bool outdated(std::span<const Pose> start, std::span<const Pose> end,
                 std::span<const BodyId> bodies) const;
 
@@ -49,7 +51,8 @@ class Pairs {
   void addItem(BodyId body, const Shape& shape, bool movable);
   bool takeMotion(int item, const Pose& from, const Pose& to);  // true: a plane moved
   void fatten(int item, const Bounds& bounds, double margin);
-  bool takeMotions(std::span<const Pose> start, std::span<const Pose> end, bool all);
+  bool takeMotions(std::span<const Pose> start, std::span<const Pose> end,
+                   std::span<const double> push, bool all);
   void takeBounds(int item, double margin, bool all);
   bool bothRest(const Watch& watch) const { return items_[watch.a].rests && items_[watch.b].rests; }
   bool wanted(const Item& p, const Item& q) const;

@@ -25,7 +25,10 @@ void SmallSteps::Impl::learn(Model& w) {
   makeRoom(w.bodies.pose.size());
   if (known && articulationOf.size() == w.bodies.pose.size()) return;
   known = true;
-  for (BodyId i = 0; i < w.bodies.size(); ++i) radius[i] = boundingRadius(w.bodies.shape[i]);
+  for (BodyId i = 0; i < w.bodies.size(); ++i) {
+    radius[i] = boundingRadius(w.bodies.shape[i]);
+    thickness[i] = w.collider.thickness(i);
+  }
   const Islands& joined = jointIslands(w);
   std::vector<std::vector<JointRef>> rows(joined.size());
   std::vector<BodyId> roots;

@@ -59,6 +59,9 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   moved.resize(bodies);
   stiffness.resize(bodies, Mat3::Zero());
   radius.resize(bodies);
+  thickness.resize(bodies);
+  pushed.resize(bodies, Vec3::Zero());
+  push.resize(bodies);
   inertias.resize(bodies);
   spins.resize(bodies);
   meanSpins.resize(bodies, Vec3::Zero());

@@ -195,7 +195,9 @@ struct SmallSteps::Impl {
   std::vector<Mat3> inertias;   // world, at X^t, and the turn without joints and contacts: of those
   std::vector<Vec3> spins;      // whose inertia turns with them
   std::vector<Vec3> meanSpins;  // by body: what turns arms back [rad/s]
-  std::vector<double> radius;   // by body, of its shape
+  std::vector<double> radius, thickness;  // by body, of its shape
+  std::vector<Vec3> pushed;               // by body: what hits add to its way in this step [m]
+  std::vector<double> push;               // and how far that is
   enum class Held : char { kNot, kJoined, kTouching };  // by joints or points; by contacts
   std::vector<Held> held;                               // of an island, by its first body
   std::vector<Joined> joined;                           // the same
@@ -232,6 +234,7 @@ struct SmallSteps::Impl {
   void makeRoom(std::size_t bodies);
   void look(Model& w);
   bool lookOnce(Model& w);
+  bool findPushes(const Model& w);
   int leastOf(const Model& w, BodyId i) const;
   void divide(Model& w);
   int substepsForApproach(const Model& w, const KeptContact& c) const;

@@ -324,5 +324,29 @@ TEST(SmallSteps, BoxesThatFallOnAHeapHardlyOverlap) {
   EXPECT_LT(world.largestOverlap(), 5e-3);
 }
 
+// A wall of 1 cm just behind a ball, which a fast one hits in the middle of a step: what is left of
+// the step would take it through the wall, which it was not about to meet.
+TEST(SmallSteps, WhatIsHitDoesNotGoThroughTheWallBehindIt) {
+  Settings settings = asByDefault();
+  settings.gravity.reset();
+  for (const double speed : {10.0, 30.0, 100.0, 300.0}) {
+    for (const double gap : {0.015, 0.05, 0.2}) {
+      World world(settings);
+      addBody(world, Box{Vec3(0.01, 4, 4)}, Vec3::Zero(), 1, Motion::kStatic);
+      const BodyId hit = addBody(world, Sphere{0.1}, Vec3(-0.105 - gap, 0, 0));
+      const BodyId fast = addBody(world, Sphere{0.1}, Vec3(-3, 0, 0));
+      world.setVelocity(fast, {Vec3(speed, 0, 0), Vec3::Zero()});
+      double furthest = -3;
+      for (int k = 0; k < 60; ++k) {
+        world.step();
+        for (const BodyId i : {hit, fast}) {
+          furthest = std::max(furthest, world.bodies().pose[i].x.x());
+        }
+      }
+      EXPECT_LT(furthest, -0.1) << speed << " m/s, " << gap << " m";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace physics::testing
