@@ -171,7 +171,7 @@ bool isBoxy(const Solid& a, const Solid& b) {
 }  // namespace
 
 bool turnsFar(const Solid& a, const Solid& b, double turn) {
-  return kShareOfTurn * turn > kFlat * smallerSize(a, b);
+  return toleranceOf(a, b, turn) > toleranceOf(a, b, 0);
 }
 
 void touchParting(const Solid& a, const Solid& b, const Relative& pose, const Vec3& n,
