@@ -16,7 +16,7 @@ namespace physics {
 namespace {
 
 constexpr int kChunksPerThread = 4;
-constexpr int kPatience = 1 << 11;  // looks before sleep, some 50 us
+constexpr int kPatience = 1 << 13;  // looks before sleep, some 150 us: as long as waking takes
 
 std::uint64_t claimOf(std::uint32_t round, int next, int end) {
   return std::uint64_t{round} << 32 | static_cast<std::uint64_t>(next) << 16 |

@@ -5,6 +5,7 @@
 #include <fcl/math/bv/AABB.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstdint>
 
@@ -30,13 +31,19 @@ bool overlap(const fcl::AABBd& p, const fcl::AABBd& q) {
   return !apart;
 }
 
-void collect(const Node* node, const fcl::AABBd& box, std::vector<int>& found) {
-  for (; overlap(node->bv, box); node = node->children[1]) {
+// Below a node, but for the leaf `self`. How deep that went.
+int collect(const Node* node, const fcl::AABBd& box, const Node* self, std::vector<int>& found) {
+  int depth = 0, deepest = 0;
+  for (; overlap(node->bv, box); node = node->children[1], ++depth) {
     if (node->children[1] == nullptr) {
-      return found.push_back(static_cast<int>(reinterpret_cast<std::intptr_t>(node->data)));
+      if (node != self) {
+        found.push_back(static_cast<int>(reinterpret_cast<std::intptr_t>(node->data)));
+      }
+      break;
     }
-    collect(node->children[0], box, found);
+    deepest = std::max(deepest, depth + 1 + collect(node->children[0], box, self, found));
   }
+  return std::max(deepest, depth);
 }
 
 }  // namespace
@@ -48,43 +55,30 @@ struct BroadPhase::Impl {
   };
   struct Part {
     Tree tree;
-    std::vector<const Node*> open;
-    std::size_t deepest = 0;  // of the last walks: how many nodes were left open
+    std::atomic<int> deepest = 0;  // that the last walks went
 
     // A little of it each time; all of it where it got deep. As FCL's manager does.
     void balance() {
-      const auto least = static_cast<std::size_t>(std::bit_width(tree.size()));
-      if (deepest > least + 10) {
+      if (deepest > static_cast<int>(std::bit_width(tree.size())) + 10) {
         tree.balanceTopdown();
       } else {
         tree.balanceIncremental(10);
       }
       deepest = 0;
     }
+
+    void find(const fcl::AABBd& box, const Node* self, std::vector<int>& found) {
+      if (tree.empty()) return;
+      const int depth = collect(tree.getRoot(), box, self, found);
+      int most = deepest.load(std::memory_order_relaxed);
+      while (depth > most && !deepest.compare_exchange_weak(most, depth)) {
+      }
+    }
   };
   std::vector<Item> items;
   Part large, small;
 
   Part& partOf(const Item& item) { return item.small ? small : large; }
-
-  void appendOverlaps(Part& part, int i, std::vector<std::array<int, 2>>& found) const {
-    if (part.tree.empty()) return;
-    const Node* self = items[i].leaf;
-    const fcl::AABBd box = self->bv;
-    part.open.assign(1, part.tree.getRoot());
-    while (!part.open.empty()) {
-      const Node* node = part.open.back();
-      part.open.pop_back();
-      if (!overlap(node->bv, box)) continue;
-      if (node->children[1] != nullptr) {
-        part.deepest = std::max(part.deepest, part.open.size());
-        part.open.push_back(node->children[0]);
-        part.open.push_back(node->children[1]);
-      } else if (node != self) {
-        found.push_back({i, static_cast<int>(reinterpret_cast<std::intptr_t>(node->data))});
-      }
-    }
-  }
 };
 
 BroadPhase::BroadPhase() : impl_(std::make_unique<Impl>()) {}
@@ -98,12 +92,10 @@ void BroadPhase::add(const Bounds& bounds, bool small) {
 }
 
 std::size_t BroadPhase::bytes() const {  // a binary tree has two nodes for each leaf
-  return sizeof(Impl) + impl_->items.size() * (sizeof(Impl::Item) + 2 * sizeof(Node)) +
-         (impl_->large.open.capacity() + impl_->small.open.capacity()) * sizeof(void*);
+  return sizeof(Impl) + impl_->items.size() * (sizeof(Impl::Item) + 2 * sizeof(Node));
 }
 
-void BroadPhase::update(std::span<const int> moved, std::span<const Bounds> bounds,
-                        std::vector<std::array<int, 2>>& found) {
+void BroadPhase::update(std::span<const int> moved, std::span<const Bounds> bounds) {
   for (const int i : moved) {
     const Impl::Item& item = impl_->items[i];
     Impl::Part& part = impl_->partOf(item);
@@ -111,11 +103,12 @@ void BroadPhase::update(std::span<const int> moved, std::span<const Bounds> boun
     if (!item.leaf->bv.equal(box)) part.tree.update(item.leaf, box);
   }
   for (Impl::Part* part : {&impl_->large, &impl_->small}) part->balance();
-  for (const int i : moved) {
-    const Impl::Item& item = impl_->items[i];
-    impl_->appendOverlaps(impl_->large, i, found);
-    if (!item.small) impl_->appendOverlaps(impl_->small, i, found);
-  }
+}
+
+void BroadPhase::findAt(int i, std::vector<int>& found) const {
+  const Impl::Item& item = impl_->items[i];
+  impl_->large.find(item.leaf->bv, item.leaf, found);
+  if (!item.small) impl_->small.find(item.leaf->bv, item.leaf, found);
 }
 
 void BroadPhase::balance() {
@@ -124,9 +117,7 @@ void BroadPhase::balance() {
 
 void BroadPhase::find(const Bounds& bounds, std::vector<int>& found) const {
   const fcl::AABBd box = boxOf(bounds);
-  for (const Impl::Part* part : {&impl_->large, &impl_->small}) {
-    if (!part->tree.empty()) collect(part->tree.getRoot(), box, found);
-  }
+  for (Impl::Part* part : {&impl_->large, &impl_->small}) part->find(box, nullptr, found);
 }
 
 }  // namespace physics::collision

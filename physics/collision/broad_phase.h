@@ -1,7 +1,6 @@
 // Which bounds overlap: FCL's dynamic tree behind a plain interface.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,14 +20,13 @@ class BroadPhase {
   // together.
   void add(const Bounds& bounds, bool small);
 
-  // Takes the new bounds of the items `moved` over, then appends each pair of a moved item and
-  // another whose bounds overlap; in no order, a pair of two moved items twice. No allocation
-  // beyond `found`.
-  void update(std::span<const int> moved, std::span<const Bounds> bounds,
-              std::vector<std::array<int, 2>>& found);
+  // Takes the new bounds of the items `moved` over.
+  void update(std::span<const int> moved, std::span<const Bounds> bounds);
 
   void balance();  // after many were added
-  // Appends the items whose bounds overlap `bounds`, in no order. Any thread may ask at any time.
+  // Append the items whose bounds overlap those of item i, without it; or `bounds`. In no order,
+  // without allocating beyond `found`. Any thread may ask at any time.
+  void findAt(int i, std::vector<int>& found) const;
   void find(const Bounds& bounds, std::vector<int>& found) const;
 
   std::size_t bytes() const;  // held now, the tree's nodes included

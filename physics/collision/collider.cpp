@@ -7,6 +7,7 @@
 
 #include "physics/base/archive.h"
 #include "physics/base/profile.h"
+#include "physics/base/workers.h"
 #include "physics/collision/mesh_contacts.h"
 #include "physics/collision/narrow.h"
 #include "physics/collision/pairs.h"
@@ -245,34 +246,28 @@ std::span<const std::pair<BodyId, BodyId>> Collider::ignored() const {
 
 std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<const Pose> end,
                                          double margin) {
-  profileScope("broad_phase");
-  const std::size_t pairs = prepare(start, end, margin);
-  profileScope("narrow_phase");
-  lookAt(0, pairs);
-  const std::span<const Found> found = gather();
-  profileScope("contact");
+  Workers alone;
+  const std::span<const Found> found = look(start, end, margin, {}, alone);
   if (!impl_) return {};
   impl_->manifolds.clear();
   for (const Found& f : found) impl_->manifolds.push_back(*f.manifold);
   return impl_->manifolds;
 }
 
-std::size_t Collider::prepare(std::span<const Pose> start, std::span<const Pose> end, double margin,
-                              std::span<const double> push) {
+std::span<const Found> Collider::look(std::span<const Pose> start, std::span<const Pose> end,
+                                      double margin, std::span<const double> push,
+                                      Workers& workers) {
+  constexpr int kLeastPairs = 64;  // of a thread
   require(margin >= 0, "collider: margin must not be negative");
-  if (!impl_) return 0;
-  impl_->pairs.update(start, end, margin, push);
-  impl_->step = {start, end, margin};
-  return impl_->pairs.watches().size();
-}
-
-void Collider::lookAt(std::size_t from, std::size_t to) {
-  if (impl_) impl_->lookAt(from, to);
-}
-
-std::span<const Found> Collider::gather() {
   if (!impl_) return {};
+  profileScope("broad_phase");
+  impl_->pairs.update(start, end, margin, push, workers);
+  impl_->step = {start, end, margin};
+  profileScope("narrow_phase");
+  workers.forEachChunk(static_cast<int>(impl_->pairs.watches().size()), kLeastPairs,
+                       [&](int from, int to) { impl_->lookAt(from, to); });
   impl_->gather();
+  profileScope("contact");
   return impl_->found;
 }
 

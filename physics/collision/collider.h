@@ -47,6 +47,7 @@ struct Found {
 };
 
 class Archive;
+class Workers;
 class Collider {
  public:
   Collider();
@@ -69,15 +70,11 @@ class Collider {
   std::span<const Manifold> find(std::span<const Pose> start, std::span<const Pose> end,
                                  double margin);
 
-  // find() in three parts. prepare() tells how many pairs there are to look at; lookAt() looks at
-  // those from `from` up to `to`, in any order and on any thread: a pair is looked at once, and
-  // what is found of it depends on no other. `start` and `end` must last until gather(), and what
-  // that tells lasts until the next prepare(). `push` [m], by BodyId or empty: how much further
-  // than to `end` a hit may take a body; what does not move is looked for that far around it.
-  std::size_t prepare(std::span<const Pose> start, std::span<const Pose> end, double margin,
-                      std::span<const double> push = {});
-  void lookAt(std::size_t from, std::size_t to);
-  std::span<const Found> gather();
+  // The same by all `workers`, where the collider keeps it: what is found of a pair depends on no
+  // other. `push` [m], by BodyId or empty: how much further than to `end` a hit may take a body;
+  // what does not move is looked for that far around it.
+  std::span<const Found> look(std::span<const Pose> start, std::span<const Pose> end, double margin,
+                              std::span<const double> push, Workers& workers);
   std::span<const Found> found() const;  // by the last look
 
   // True when one of `bodies`, moving from `start` to `end`, leaves the bounds that the last find()

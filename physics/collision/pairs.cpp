@@ -167,24 +167,36 @@ void Pairs::dropParted() {
   watches_.resize(kept);
 }
 
-void Pairs::offer(int p, int q) {
+void Pairs::offer(int p, int q, std::vector<std::pair<int, int>>& fresh) const {
   if (items_[p].rests && items_[q].rests) return;
   if (!touches(p, q) || !wanted(items_[p], items_[q])) return;
-  fresh_.push_back(isFirst(items_[p], items_[q]) ? std::pair(p, q) : std::pair(q, p));
+  fresh.push_back(isFirst(items_[p], items_[q]) ? std::pair(p, q) : std::pair(q, p));
 }
 
-void Pairs::findNew() {
+// Each pair once, though it is found from both where both moved.
+void Pairs::findNew(Workers& workers) {
+  constexpr int kLeastItems = 16;  // of a thread
+  const int moved = static_cast<int>(movedTree_.size());
+  offers_.resize(std::max<std::size_t>(offers_.size(), moved / kLeastItems + 1));
+  for (Offers& offers : offers_) offers.fresh.clear();
+  workers.forEachChunk(moved, kLeastItems, [&](int from, int to) {
+    Offers& own = offers_[from / kLeastItems];
+    for (int k = from; k < to; ++k) {
+      const int p = itemOfTree_[movedTree_[k]];
+      own.found.clear();
+      tree_.findAt(movedTree_[k], own.found);
+      for (const int t : own.found) {
+        const int q = itemOfTree_[t];
+        if (!moved_[q] || p < q) offer(p, q, own.fresh);
+      }
+      for (const int plane : planes_) offer(p, plane, own.fresh);
+    }
+  });
   fresh_.clear();
-  for (const auto& [s, t] : found_) {
-    const int p = itemOfTree_[s], q = itemOfTree_[t];
-    const bool twice = moved_[p] && moved_[q];  // found from both
-    if (!twice || p < q) offer(p, q);
-  }
-  for (const int plane : planes_) {
-    for (const int t : movedTree_) offer(itemOfTree_[t], plane);
+  for (const Offers& offers : offers_) {
+    fresh_.insert(fresh_.end(), offers.fresh.begin(), offers.fresh.end());
   }
   std::sort(fresh_.begin(), fresh_.end());
-  fresh_.erase(std::unique(fresh_.begin(), fresh_.end()), fresh_.end());
   mergeFresh();
 }
 
@@ -193,7 +205,9 @@ void Pairs::mergeFresh() {
   const auto isBefore = [](const Watch& w, const std::pair<int, int>& p) { return w.items() < p; };
   auto at = watches_.begin();
   std::erase_if(fresh_, [&](const std::pair<int, int>& pair) {
-    at = std::lower_bound(at, watches_.end(), pair, isBefore);
+    std::ptrdiff_t stride = 1;  // the next one is not far as a rule
+    while (stride < watches_.end() - at && isBefore(at[stride], pair)) stride *= 2;
+    at = std::lower_bound(at, at + std::min(stride + 1, watches_.end() - at), pair, isBefore);
     return at != watches_.end() && at->items() == pair;
   });
   std::ptrdiff_t old = std::ssize(watches_);
@@ -262,7 +276,7 @@ void Pairs::takeBounds(int i, double margin, bool all) {
 }
 
 void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin,
-                   std::span<const double> push) {
+                   std::span<const double> push, Workers& workers) {
   require(start.size() == end.size() && start.size() >= indexOf_.size(),
           "collider: start and end must hold a pose for each body");
   for (const int t : movedTree_) moved_[itemOfTree_[t]] = false;  // of the last time
@@ -277,10 +291,9 @@ void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, doubl
   margin_ = std::max(margin, margin_);
   if (movedTree_.empty() && !ignoredMore_) return;
   dropParted();
-  found_.clear();
-  tree_.update(movedTree_, treeBounds_, found_);
+  tree_.update(movedTree_, treeBounds_);
   ++broadPhaseCalls_;
-  findNew();
+  findNew(workers);
   ignoredMore_ = false;
 }
 

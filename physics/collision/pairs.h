@@ -1,12 +1,12 @@
 // The pairs of bodies near enough to be watched, found by fat bounds and kept in order.
 #pragma once
 
-#include <array>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "physics/base/archive.h"
+#include "physics/base/workers.h"
 #include "physics/collision/broad_phase.h"
 #include "physics/collision/watch.h"
 
@@ -22,7 +22,7 @@ class Pairs {
   // pair whose surfaces come within `margin` of each other between start and end. `push` [m], by
   // BodyId or empty: of how much further a hit may take a body, towards what does not move.
   void update(std::span<const Pose> start, std::span<const Pose> end, double margin,
-              std::span<const double> push);
+              std::span<const double> push, Workers& workers);
   bool outdated(std::span<const Pose> start, std::span<const Pose> end,
                 std::span<const BodyId> bodies) const;
 
@@ -58,8 +58,8 @@ class Pairs {
   bool wanted(const Item& p, const Item& q) const;
   bool touches(int p, int q) const;  // of the fat bounds
   void dropParted();
-  void offer(int p, int q);
-  void findNew();
+  void offer(int p, int q, std::vector<std::pair<int, int>>& fresh) const;
+  void findNew(Workers& workers);
   void mergeFresh();
   Watch newWatch(int p, int q);
   void name(const Watch& watch, Manifold& manifold) const;
@@ -88,7 +88,11 @@ class Pairs {
   std::vector<char> moved_;  // by item
   std::vector<int> movedTree_;
   std::vector<Bounds> treeBounds_;
-  std::vector<std::array<int, 2>> found_;
+  struct Offers {  // of some that moved, by one thread
+    std::vector<int> found;
+    std::vector<std::pair<int, int>> fresh;
+  };
+  std::vector<Offers> offers_;
 };
 
 // The way the bodies of a pair are ordered: by kind, then static last, then by id.

@@ -67,33 +67,53 @@ void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch, double h)
 }
 
 // The sag of a contact under what it has carried for two steps, and what the last sweep changed.
-void SmallSteps::Impl::weighContacts(const Model& w, const Batch& batch, double h) {
+SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactBlock& block, int l,
+                                                  double h) const {
   const Bodies& b = w.bodies;
-  for (const ContactBlock& block : batch.blocks) {
-    for (int l = 0; l < ContactBlock::kLanes; ++l) {
-      if (block.contact[l] < 0) continue;
-      const KeptContact& c = contacts[block.contact[l]];
-      const BodyId root = rootOf(w, c);
-      change[root] += block.change[l];
-      const double mass = 1 / (b.inverse[c.a].m + b.inverse[c.b].m);
-      energy[root] +=
-          kMotion * mass * h * h * (b.velocity[c.a].v - b.velocity[c.b].v).squaredNorm();
-      const Softness law = softnessOf(b, c);
-      const double soft = (1 - law.scale) / (law.scale * law.rate);
-      const double size = std::min(radius[c.a], radius[c.b]);
-      if (!(size > 0) || isJointed(c)) continue;
-      const double small = smallSag(b, c, size, w.settings.dt);
-      for (int k = 0; k < c.count; ++k) {
-        const double inverse = block.point[k].inverse[l];
-        const double lambda = std::min(c.lambda[k], c.before[k]);
-        if (!(inverse > 0)) continue;
-        const double held = std::min<double>(lambda, block.held[k][l]);
-        const double share = lambda * soft / inverse / size;
-        load[root] += lambda * small / size;
-        sag[root] += share * (lambda - held);
-        drawn[root] += share * held;
-        carried[root] += lambda;
+  const KeptContact& c = contacts[block.contact[l]];
+  Weighed of;
+  of.root = rootOf(w, c);
+  of.change = block.change[l];
+  const double mass = 1 / (b.inverse[c.a].m + b.inverse[c.b].m);
+  of.energy = kMotion * mass * h * h * (b.velocity[c.a].v - b.velocity[c.b].v).squaredNorm();
+  const Softness law = softnessOf(b, c);
+  const double soft = (1 - law.scale) / (law.scale * law.rate);
+  const double size = std::min(radius[c.a], radius[c.b]);
+  if (!(size > 0) || isJointed(c)) return of;
+  const double small = smallSag(b, c, size, w.settings.dt);
+  for (int k = 0; k < c.count; ++k) {
+    const double inverse = block.point[k].inverse[l];
+    const double lambda = std::min(c.lambda[k], c.before[k]);
+    if (!(inverse > 0)) continue;
+    const double held = std::min<double>(lambda, block.held[k][l]);
+    const double share = lambda * soft / inverse / size;
+    of.load += lambda * small / size;
+    of.sag += share * (lambda - held);
+    of.drawn += share * held;
+    of.carried += lambda;
+  }
+  return of;
+}
+
+// Of islands: summed in the order of the contacts, for the same bytes on any number of threads.
+void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch, double h) {
+  weighed.resize(batch.blocks.size());
+  forEachRun(w, batch, [&](int from, int to) {
+    for (int i = from; i < to; ++i) {
+      const ContactBlock& block = batch.blocks[i];
+      for (int l = 0; l < ContactBlock::kLanes; ++l) {
+        weighed[i][l] = block.contact[l] < 0 ? Weighed{} : weigh(w, block, l, h);
       }
+    }
+  });
+  for (const auto& lanes : weighed) {
+    for (const Weighed& of : lanes) {
+      change[of.root] += of.change;
+      energy[of.root] += of.energy;
+      load[of.root] += of.load;
+      sag[of.root] += of.sag;
+      drawn[of.root] += of.drawn;
+      carried[of.root] += of.carried;
     }
   }
 }
@@ -149,6 +169,7 @@ void SmallSteps::Impl::askDeformables(Model& w, const Batch& batch, double h) {
 
 // Contacts see the articulated mass of what carries much more than it weighs.
 void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch, double h) {
+  if (batch.articulations.empty()) return;
   const Bodies& b = w.bodies;
   const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
   for (const int k : batch.articulations) {

@@ -7,6 +7,10 @@ namespace physics {
 namespace {
 
 constexpr int kColours = 64, kColourLists = 4 * kColours;
+// Of a colour those of the same bodies lie together, by parts of all contacts: a thread meets the
+// same bodies in each colour, and finds them in its cache.
+constexpr int kParts = 8, kPlaces = kParts * ContactBlock::kPoints;
+constexpr std::size_t kLeastOfPart = 1024;  // that fill blocks of each colour
 
 // The last colour of each kind is the overflow: a block each.
 int laneStride(int list) { return list % kColours == kColours - 1 ? ContactBlock::kLanes : 1; }
@@ -84,45 +88,47 @@ void SmallSteps::Impl::takeSlots(Batch& batch) {
 
 // Contacts of one colour share no body that moves. First those of two bodies that move, then those
 // with what does not, so that a sweep ends with nothing driven into a wall. A body with more
-// contacts than there are colours has the others one by one. Of a colour those with most points
-// come first: a block takes as long as its largest manifold.
+// contacts than there are colours has the others one by one. Of a part those with most points come
+// first: a block takes as long as its largest manifold.
 void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
+  constexpr int kLanes = ContactBlock::kLanes;
   takeSlots(batch);
   if (batch.contacts.empty()) return;
   takeResponses(batch);
   placeOf.resize(batch.contacts.size());
-  std::array<int, kColourLists * ContactBlock::kPoints> first{};  // and by missing points
+  std::array<int, kColourLists * kPlaces> first{};  // and by part and missing points
   std::array<bool, kColourLists> isUsed{};
+  const std::size_t part = std::max(batch.contacts.size() / kParts + 1, kLeastOfPart);
   for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
     const KeptContact& c = contacts[batch.contacts[i]];
-    placeOf[i] = colourOf(w.bodies, c) * ContactBlock::kPoints + ContactBlock::kPoints -
-                 std::max(c.count, 1);
+    const int list = colourOf(w.bodies, c);
+    placeOf[i] = list * kPlaces + static_cast<int>(i / part) * ContactBlock::kPoints +
+                 ContactBlock::kPoints - std::max(c.count, 1);
     ++first[placeOf[i]];
-    isUsed[placeOf[i] / ContactBlock::kPoints] = true;
+    isUsed[list] = true;
   }
   int lanes = 0;
   for (int list = 0; list < kColourLists; ++list) {
     if (!isUsed[list]) continue;
-    for (int k = list * ContactBlock::kPoints; k < (list + 1) * ContactBlock::kPoints; ++k) {
+    for (int k = list * kPlaces; k < (list + 1) * kPlaces; ++k) {
       const int count = first[k] * laneStride(list);
       first[k] = lanes;
       lanes += count;
     }
-    lanes = (lanes + ContactBlock::kLanes - 1) / ContactBlock::kLanes * ContactBlock::kLanes;
-    addRun(lanes / ContactBlock::kLanes, laneStride(list) == 1, list / kColours % 2 == 1,
-           batch.runs);
+    lanes = (lanes + kLanes - 1) / kLanes * kLanes;
+    addRun(lanes / kLanes, laneStride(list) == 1, list / kColours % 2 == 1, batch.runs);
   }
-  batch.blocks.resize(lanes / ContactBlock::kLanes);
+  batch.blocks.resize(lanes / kLanes);
   for (ContactBlock& block : batch.blocks) {
     std::fill(std::begin(block.contact), std::end(block.contact), -1);
     block.points = 1;
   }
   for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
     int& place = first[placeOf[i]];
-    ContactBlock& block = batch.blocks[place / ContactBlock::kLanes];
-    block.contact[place % ContactBlock::kLanes] = batch.contacts[i];
+    ContactBlock& block = batch.blocks[place / kLanes];
+    block.contact[place % kLanes] = batch.contacts[i];
     block.points = std::max(block.points, contacts[batch.contacts[i]].count);
-    place += laneStride(placeOf[i] / ContactBlock::kPoints);
+    place += laneStride(placeOf[i] / kPlaces);
   }
 }
 
@@ -234,21 +240,19 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
     }
   });
   const float reach = static_cast<float>(w.settings.contact->margin);
-  w.workers.forEachChunk(
-      static_cast<int>(batch.blocks.size()), kLeastBlocks, [&](int from, int to) {
-        for (int i = from; i < to; ++i) fill(w, h, batch.takesTurns(), batch.blocks[i]);
-        contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), reach);
-      });
+  forEachRun(w, batch, [&](int from, int to) {
+    for (int i = from; i < to; ++i) fill(w, h, batch.takesTurns(), batch.blocks[i]);
+    contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), reach);
+  });
   noteDeep(w, batch, h);
 }
 
 // Multipliers from the lanes to the contacts that are kept.
 void SmallSteps::Impl::takeOver(Model& w, Batch& batch, double h) {
   physics::takeOver(batch.softRows, batch.soft);
-  w.workers.forEachChunk(static_cast<int>(batch.blocks.size()), kLeastBlocks,
-                         [&](int from, int to) {
-                           for (int i = from; i < to; ++i) takeOver(batch.blocks[i], h);
-                         });
+  forEachRun(w, batch, [&](int from, int to) {
+    for (int i = from; i < to; ++i) takeOver(batch.blocks[i], h);
+  });
 }
 
 void SmallSteps::Impl::takeOver(const ContactBlock& block, double h) {

@@ -9,18 +9,8 @@ namespace physics {
 
 namespace {
 
-// Pairs are looked at by all threads: what is found of one depends on no other.
 std::span<const Found> findContacts(Model& w, std::span<const double> push = {}) {
-  constexpr int kLeastPairs = 64;  // of a thread
-  profileScope("broad_phase");
-  const auto pairs = static_cast<int>(
-      w.collider.prepare(w.bodies.pose, w.ahead, w.settings.contact->margin, push));
-  profileScope("narrow_phase");
-  w.workers.forEachChunk(pairs, kLeastPairs,
-                         [&](int from, int to) { w.collider.lookAt(from, to); });
-  const std::span<const Found> found = w.collider.gather();
-  profileScope("contact");
-  return found;
+  return w.collider.look(w.bodies.pose, w.ahead, w.settings.contact->margin, push, w.workers);
 }
 
 }  // namespace
@@ -81,10 +71,10 @@ bool SmallSteps::Impl::lookOnce(Model& w) {
     }
   }
   std::swap(contacts, before);
-  keep(before, found, b, contacts);
+  keep(before, found, b, w.workers, contacts);
   if (!findPushes(w)) return true;
   std::swap(contacts, before);
-  keep(before, findContacts(w, push), b, contacts);
+  keep(before, findContacts(w, push), b, w.workers, contacts);
   return true;
 }
 

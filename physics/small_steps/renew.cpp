@@ -99,10 +99,9 @@ void SmallSteps::Impl::renewTurned(Model& w, Batch& batch) {
     startRows(batch.motions[s]);
     toLane(batch, static_cast<int>(s));
   }
-  w.workers.forEachChunk(static_cast<int>(batch.blocks.size()), kLeastBlocks,
-                         [&](int from, int to) {
-                           for (int i = from; i < to; ++i) renew(w, batch, batch.blocks[i]);
-                         });
+  forEachRun(w, batch, [&](int from, int to) {
+    for (int i = from; i < to; ++i) renew(w, batch, batch.blocks[i]);
+  });
 }
 
 }  // namespace physics

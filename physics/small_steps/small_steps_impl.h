@@ -253,6 +253,8 @@ struct SmallSteps::Impl {
   template <class F>
   void sweepResponding(Batch& batch, ContactBlock& block, F&& kernel) const;
   template <class F>
+  static void forEachRun(Model& w, const Batch& batch, F&& f);
+  template <class F>
   void sweep(Model& w, Batch& batch, std::initializer_list<ContactRows> responding, F&& kernel);
   void layOut(Model& w, Batch& batch);
   BodyId softMoverOf(const Model& w, const SoftPair& pair) const;
@@ -302,7 +304,13 @@ struct SmallSteps::Impl {
   void takeOver(const ContactBlock& block, double h);
   double sagOf(BodyId root) const;
   void weighMotion(const Model& w, const Batch& batch, double h);
-  void weighContacts(const Model& w, const Batch& batch, double h);
+  struct Weighed {  // a contact, of what its island is weighed by
+    BodyId root = kWorldBody;
+    double change = 0, energy = 0, load = 0, sag = 0, drawn = 0, carried = 0;
+  };
+  std::vector<std::array<Weighed, ContactBlock::kLanes>> weighed;  // scratch, by block
+  Weighed weigh(const Model& w, const ContactBlock& block, int l, double h) const;
+  void weighContacts(Model& w, const Batch& batch, double h);
   void askJoints(const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
   void askDeformables(Model& w, const Batch& batch, double h);
@@ -380,6 +388,16 @@ void SmallSteps::Impl::sweepResponding(Batch& batch, ContactBlock& block, F&& ke
   }
   for (const Lane& lane : before) {
     if (batch.responders[lane.slot].articulation >= 0) spread(batch, lane.slot, lane.u);
+  }
+}
+
+// f(from, to) of blocks that depend on no other, dealt to threads as sweeps deal them: lines of the
+// cache stay where they are.
+template <class F>
+void SmallSteps::Impl::forEachRun(Model& w, const Batch& batch, F&& f) {
+  for (const BlockRun& run : batch.runs) {
+    w.workers.forEachChunk(run.count, run.shared ? kLeastBlocks : run.count,
+                           [&](int from, int to) { f(run.first + from, run.first + to); });
   }
 }
 

@@ -1,6 +1,7 @@
 // Contacts from step to step.
 #include "physics/solver/kept_contact.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "physics/constraints/friction.h"
@@ -64,21 +65,26 @@ void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
 
 }  // namespace
 
-void keep(std::span<const KeptContact> previous, std::span<const Found> found,
-          const Bodies& bodies, std::vector<KeptContact>& now) {
+void keep(std::span<const KeptContact> previous, std::span<const Found> found, const Bodies& bodies,
+          Workers& workers, std::vector<KeptContact>& now) {
+  constexpr int kLeastContacts = 32;  // of a thread
+  const auto isBefore = [](const KeptContact& c, std::uint64_t key) { return c.key < key; };
   now.resize(found.size());
-  std::size_t old = 0;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const Manifold& m = *found[i].manifold;
-    while (old < previous.size() && previous[old].key < m.pair) ++old;
-    const bool goesOn = old < previous.size() && previous[old].key == m.pair;
-    if (goesOn && !found[i].isNew && previous[old].carried) {
-      now[i] = previous[old];
-      continue;
+  workers.forEachChunk(static_cast<int>(found.size()), kLeastContacts, [&](int from, int to) {
+    auto old =
+        std::lower_bound(previous.begin(), previous.end(), found[from].manifold->pair, isBefore);
+    for (int i = from; i < to; ++i) {
+      const Manifold& m = *found[i].manifold;
+      while (old != previous.end() && old->key < m.pair) ++old;
+      const bool goesOn = old != previous.end() && old->key == m.pair;
+      if (goesOn && !found[i].isNew && old->carried) {
+        now[i] = *old;
+        continue;
+      }
+      take(m, bodies, now[i]);
+      if (goesOn) match(*old, now[i]);
     }
-    take(m, bodies, now[i]);
-    if (goesOn) match(previous[old], now[i]);
-  }
+  });
 }
 
 Vec3 normalOf(const KeptContact& contact, std::span<const Pose> pose) {

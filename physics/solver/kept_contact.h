@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/base/workers.h"
 #include "physics/bodies/body.h"
 #include "physics/collision/collider.h"
 #include "physics/constraints/contact.h"
@@ -31,8 +32,8 @@ struct KeptContact {
 
 // What the collider found, with the multipliers of the points that go on. Both are sorted by their
 // key.
-void keep(std::span<const KeptContact> previous, std::span<const Found> found,
-          const Bodies& bodies, std::vector<KeptContact>& now);
+void keep(std::span<const KeptContact> previous, std::span<const Found> found, const Bodies& bodies,
+          Workers& workers, std::vector<KeptContact>& now);
 
 // The same as the sweeps' pair, for reports: multipliers belong to a substep of `step`.
 ContactPair pairOf(const KeptContact& contact, double step);

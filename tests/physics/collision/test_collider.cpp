@@ -3,8 +3,8 @@
 
 #include <cstring>
 #include <numeric>
-#include <thread>
 
+#include "physics/base/workers.h"
 #include "tests/physics/collision/scene_of_two.h"
 
 namespace physics {
@@ -117,8 +117,10 @@ TEST(Collider, IsNotChangedByBodiesElsewhere) {
   }
 }
 
-TEST(Collider, FindsTheSameWhenPairsAreLookedAtInPartsOnTwoThreads) {
-  Pile whole = pyramid(8), parts = pyramid(8);
+TEST(Collider, FindsTheSameOnThreeThreads) {
+  Pile whole = pyramid(20), parts = pyramid(20);
+  Workers workers;
+  workers.setCount(3);
   Random random(5);
   for (int step = 0; step < 4; ++step) {
     for (std::size_t i = 2; i < whole.poses.size(); ++i) {
@@ -126,12 +128,7 @@ TEST(Collider, FindsTheSameWhenPairsAreLookedAtInPartsOnTwoThreads) {
       parts.poses[i] = whole.poses[i];
     }
     const auto expected = whole.find();
-    const std::size_t pairs = parts.collider.prepare(parts.poses, parts.poses, .02);
-    std::thread other([&] { parts.collider.lookAt(pairs / 2, pairs); });
-    parts.collider.lookAt(0, pairs / 3);
-    parts.collider.lookAt(pairs / 3, pairs / 2);
-    other.join();
-    const auto found = parts.collider.gather();
+    const auto found = parts.collider.look(parts.poses, parts.poses, .02, {}, workers);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i)
       EXPECT_TRUE(equal(*found[i].manifold, expected[i]));
