@@ -20,8 +20,10 @@ void SmallSteps::Impl::fromLane(Batch& batch, int slot) {
   if (!batch.responders.empty() && batch.responders[slot].articulation >= 0) {
     return takeGiven(batch, slot);
   }
+  const LaneBodies lanes = lanesOf(batch);
+  if (!lanes.isChanged(slot)) return;
   const bool turns = inertiaOf[i] != Inertia::kNone;
-  lanesOf(batch).take(slot, moved[i].u, turns ? &moved[i].theta : nullptr);
+  lanes.take(slot, moved[i].u, turns ? &moved[i].theta : nullptr);
 }
 
 // Of a body whose joints respond: what contacts gave it, as if it had none. They are to follow.

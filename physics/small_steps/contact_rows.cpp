@@ -9,8 +9,7 @@ namespace {
 constexpr int kColours = 64, kColourLists = 4 * kColours;
 // Of a colour those of the same bodies lie together, by parts of all contacts: a thread meets the
 // same bodies in each colour, and finds them in its cache.
-constexpr int kParts = 8, kPlaces = kParts * ContactBlock::kPoints;
-constexpr std::size_t kLeastOfPart = 1024;  // that fill blocks of each colour
+constexpr int kParts = 8, kLeastOfPart = 1024;  // that fill blocks of each colour
 
 // The last colour of each kind is the overflow: a block each.
 int laneStride(int list) { return list % kColours == kColours - 1 ? ContactBlock::kLanes : 1; }
@@ -96,24 +95,26 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
   if (batch.contacts.empty()) return;
   takeResponses(batch);
   placeOf.resize(batch.contacts.size());
-  std::array<int, kColourLists * kPlaces> first{};  // and by part and missing points
+  const int count = static_cast<int>(batch.contacts.size());
+  const int part = std::max(count / kParts + 1, kLeastOfPart);
+  const int places = ((count - 1) / part + 1) * ContactBlock::kPoints;
+  firstOf.assign(static_cast<std::size_t>(kColourLists) * places, 0);  // and by missing points
   std::array<bool, kColourLists> isUsed{};
-  const std::size_t part = std::max(batch.contacts.size() / kParts + 1, kLeastOfPart);
-  for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
+  for (int i = 0; i < count; ++i) {
     const KeptContact& c = contacts[batch.contacts[i]];
     const int list = colourOf(w.bodies, c);
-    placeOf[i] = list * kPlaces + static_cast<int>(i / part) * ContactBlock::kPoints +
-                 ContactBlock::kPoints - std::max(c.count, 1);
-    ++first[placeOf[i]];
+    placeOf[i] = list * places + i / part * ContactBlock::kPoints + ContactBlock::kPoints -
+                 std::max(c.count, 1);
+    ++firstOf[placeOf[i]];
     isUsed[list] = true;
   }
   int lanes = 0;
   for (int list = 0; list < kColourLists; ++list) {
     if (!isUsed[list]) continue;
-    for (int k = list * kPlaces; k < (list + 1) * kPlaces; ++k) {
-      const int count = first[k] * laneStride(list);
-      first[k] = lanes;
-      lanes += count;
+    for (int k = list * places; k < (list + 1) * places; ++k) {
+      const int more = firstOf[k] * laneStride(list);
+      firstOf[k] = lanes;
+      lanes += more;
     }
     lanes = (lanes + kLanes - 1) / kLanes * kLanes;
     addRun(lanes / kLanes, laneStride(list) == 1, list / kColours % 2 == 1, batch.runs);
@@ -123,12 +124,12 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
     std::fill(std::begin(block.contact), std::end(block.contact), -1);
     block.points = 1;
   }
-  for (std::size_t i = 0; i < batch.contacts.size(); ++i) {
-    int& place = first[placeOf[i]];
+  for (int i = 0; i < count; ++i) {
+    int& place = firstOf[placeOf[i]];
     ContactBlock& block = batch.blocks[place / kLanes];
     block.contact[place % kLanes] = batch.contacts[i];
     block.points = std::max(block.points, contacts[batch.contacts[i]].count);
-    place += laneStride(placeOf[i] / kPlaces);
+    place += laneStride(placeOf[i] / places);
   }
 }
 

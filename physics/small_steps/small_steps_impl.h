@@ -188,6 +188,7 @@ struct SmallSteps::Impl {
   std::vector<int> finer;          // by articulation: substeps that its joints ask for, 0: none
   std::vector<char> opened;        // of an island with joints, by its first body: they came apart
   std::vector<int> placeOf;        // scratch, of a batch's contacts
+  std::vector<int> firstOf;        // the same: the first lane of a colour's, of a part
   std::vector<Inertia> inertiaOf;  // by body, of this step
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;

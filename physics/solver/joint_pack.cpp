@@ -439,6 +439,7 @@ void JointPack<W>::takeLanes(const LaneBodies& lanes) {
     JointBody<W>& body = bodies_[i];
     for (int l = 0; topology_->moves[i] && l < lanes_; ++l) {
       const int slot = lanes.slotOf[ids_[i * W + l]];
+      if (!lanes.isChanged(slot)) continue;
       const bool turns = body.inertia[0].v[l] + body.inertia[1].v[l] + body.inertia[2].v[l] > 0;
       Vec3 u = read(body.u, l), theta = read(body.theta, l);
       lanes.take(slot, u, turns ? &theta : nullptr);

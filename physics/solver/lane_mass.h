@@ -1,6 +1,7 @@
 // Turns and torques in the units of a body's lane, in which its inertia is one.
 #pragma once
 
+#include <cstring>
 #include <span>
 
 #include "physics/base/types.h"
@@ -32,8 +33,16 @@ struct LaneBodies {
   std::span<const LaneMass> masses;
   std::span<const LaneInverse> inverses;
 
-  // Adds what contacts have changed since the body last knew: what they leave alone stays as it
-  // was, to the last bit. Without `theta` nothing turns it.
+  // Whether contacts have changed anything since the body last knew: most of a figure touches
+  // nothing.
+  bool isChanged(int slot) const {
+    const LaneMotion& lane = motions[slot];
+    const LaneStart& start = before[slot];
+    return std::memcmp(lane.u, start.u, sizeof lane.u) != 0 ||
+           std::memcmp(lane.turn, start.turn, sizeof lane.turn) != 0;
+  }
+  // Adds it: what they leave alone stays as it was, to the last bit. Without `theta` nothing turns
+  // the body.
   void take(int slot, Vec3& u, Vec3* theta) const;
   void give(int slot, const Vec3& u, const Vec3& theta) const;
 };
