@@ -254,6 +254,8 @@ struct SmallSteps::Impl {
   template <class F>
   void sweepResponding(Batch& batch, ContactBlock& block, F&& kernel) const;
   template <class F>
+  static void forEachChunk(Model& w, const BlockRun& run, F&& f);
+  template <class F>
   static void forEachRun(Model& w, const Batch& batch, F&& f);
   template <class F>
   void sweep(Model& w, Batch& batch, std::initializer_list<ContactRows> responding, F&& kernel);
@@ -392,14 +394,18 @@ void SmallSteps::Impl::sweepResponding(Batch& batch, ContactBlock& block, F&& ke
   }
 }
 
-// f(from, to) of blocks that depend on no other, dealt to threads as sweeps deal them: lines of the
+// f(from, to) of the blocks of a run, dealt to threads where these share it.
+template <class F>
+void SmallSteps::Impl::forEachChunk(Model& w, const BlockRun& run, F&& f) {
+  w.workers.forEachChunk(run.count, run.shared ? kLeastBlocks : run.count,
+                         [&](int from, int to) { f(run.first + from, run.first + to); });
+}
+
+// The same of all blocks, by what depends on no other: dealt as sweeps deal them, lines of the
 // cache stay where they are.
 template <class F>
 void SmallSteps::Impl::forEachRun(Model& w, const Batch& batch, F&& f) {
-  for (const BlockRun& run : batch.runs) {
-    w.workers.forEachChunk(run.count, run.shared ? kLeastBlocks : run.count,
-                           [&](int from, int to) { f(run.first + from, run.first + to); });
-  }
+  for (const BlockRun& run : batch.runs) forEachChunk(w, run, f);
 }
 
 // kernel(blocks, count, rows) of what may be swept at a time, in order. Where joints respond the
@@ -416,12 +422,9 @@ void SmallSteps::Impl::sweep(Model& w, Batch& batch, std::initializer_list<Conta
                           [&](ContactBlock* b, int count) { kernel(b, count, rows); });
         }
       }
-    } else if (!run.shared) {
-      kernel(blocks + run.first, run.count, ContactRows::kAll);
     } else {
-      w.workers.forEachChunk(run.count, kLeastBlocks, [&](int from, int to) {
-        kernel(blocks + run.first + from, to - from, ContactRows::kAll);
-      });
+      forEachChunk(w, run,
+                   [&](int from, int to) { kernel(blocks + from, to - from, ContactRows::kAll); });
     }
   }
 }
