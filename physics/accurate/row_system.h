@@ -12,9 +12,14 @@ namespace physics {
 
 // J of one row by its two bodies, rows that it does not have being zero.
 struct IslandRow {
+  enum class Form : char { kRows, kSingle, kGap };
+  // Single: a row of one number. A gap: J is 1 and -[arm]x for the first body, the opposite for the
+  // second, (72).
+  Form form = Form::kRows;
+  bool solved = true;                          // false: its multiplier is given
+  Vec3 arm[2] = {Vec3::Zero(), Vec3::Zero()};  // of a gap, world
   Mat3 linear[2] = {Mat3::Zero(), Mat3::Zero()}, angular[2] = {Mat3::Zero(), Mat3::Zero()};
   Mat3 alpha = Mat3::Zero();
-  bool solved = true;  // false: its multiplier is given
 };
 
 // M^-1 of a body, world.
@@ -24,12 +29,33 @@ struct BodyInverse {
   bool turns = false;           // else that is zero
 };
 
-// J_k M^-1 J_i^T of a body that is at place p of row k and q of row i.
-inline Mat3 couple(const IslandRow& k, int p, const IslandRow& i, int q, const BodyInverse& body) {
-  Mat3 sum = body.mass * (k.linear[p] * i.linear[q].transpose());
-  if (body.turns) sum += k.angular[p] * (body.inertia * i.angular[q].transpose());
-  return sum;
+// J^T lambda of one of its bodies, added up.
+inline void addPull(const IslandRow& row, int b, const Vec3& lambda, Vec3& along, Vec3& about) {
+  if (row.form == IslandRow::Form::kGap) {
+    const Vec3 pull = b == 0 ? lambda : -lambda;
+    along += pull;
+    about += row.arm[b].cross(pull);
+  } else if (row.form == IslandRow::Form::kSingle) {
+    along += row.linear[b].row(0).transpose() * lambda[0];
+    about += row.angular[b].row(0).transpose() * lambda[0];
+  } else {
+    along += row.linear[b].transpose() * lambda;
+    about += row.angular[b].transpose() * lambda;
+  }
 }
+
+// J v of one of its bodies.
+inline Vec3 opening(const IslandRow& row, int b, const Vec3& v, const Vec3& w) {
+  if (row.form == IslandRow::Form::kSingle) {
+    return {row.linear[b].row(0).dot(v) + row.angular[b].row(0).dot(w), 0, 0};
+  }
+  if (row.form == IslandRow::Form::kRows) return row.linear[b] * v + row.angular[b] * w;
+  const Vec3 at = v + w.cross(row.arm[b]);
+  return b == 0 ? at : -at;
+}
+
+// J_k M^-1 J_i^T of a body that is at place p of row k and q of row i.
+Mat3 couple(const IslandRow& k, int p, const IslandRow& i, int q, const BodyInverse& body);
 
 // Keeps a factor regular where rows repeat each other (loops): relative to the row's own A. What it
 // leaves of an error the next iteration takes. NOTES 3.5
@@ -44,11 +70,14 @@ class RowSystem {
 
  private:
   void build(std::span<const IslandRow> rows, std::span<const BodyInverse> bodies);
+  template <int N, int K>
   void eliminate(int row);
-  void eliminateSingle(int row);
+  template <int N>
+  void solveBlocks(std::span<Vec3> right) const;
   std::shared_ptr<const JointTopology> topology_;
   std::vector<Mat3> diagonal_;          // then D^-1
   std::vector<Mat3> entries_, scaled_;  // A_ki and L_ki, by block
+  bool isSingle_ = false;               // all rows are: of every block only the first number counts
 };
 
 }  // namespace physics

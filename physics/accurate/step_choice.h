@@ -27,6 +27,10 @@ class StepChoice {
   void reject(double step, double error, double allowed);
   // `coarser`: the error of one column less.
   void accept(double step, double error, double coarser, double allowed, double time);
+  // A step that is kept, whatever it errs by.
+  void giveUp() { resolves_ = false; }
+  // The last step erred by no more than was allowed.
+  bool resolves() const { return resolves_; }
   void forget() {
     wanted_ = 0;
     bound_ = std::numeric_limits<double>::infinity();
@@ -36,6 +40,7 @@ class StepChoice {
  private:
   double stepFor(double step, double error, int columns, double allowed) const;
   int power_, least_, most_, columns_;
+  bool resolves_ = false;
   double wanted_ = 0;                                       // [s]; 0: not known
   double bound_ = std::numeric_limits<double>::infinity();  // longer ones failed [s]
 };

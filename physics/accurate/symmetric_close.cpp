@@ -60,7 +60,7 @@ double SymmetricStep::tryOut(double h, const Surroundings& world, const TrialPos
   sum();
   move(h, world);
   put(to_, trial.end);
-  lookAt(trial.end, trial, world, h);
+  lookAt(to_, trial.end, trial, world, h);
   lookAtForces(world, trial, h);
   double most = 0;
   for (const Vec3& error : error_) {

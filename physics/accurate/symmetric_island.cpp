@@ -60,7 +60,10 @@ SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const Bod
     refs_.push_back(solved[i]);
     isForce_.push_back(natureOf(world.kinds, solved[i]) == Nature::kForce);
     hasForces_ = hasForces_ || isForce_.back();
+    const std::array<double, kJointFixed>& fixed = kinds[i].fixed;
+    anchors_.push_back({Vec3(fixed[0], fixed[1], fixed[2]), Vec3(fixed[3], fixed[4], fixed[5])});
   }
+  isSeenAway_ = !limits_.empty();
   for (const BodyId i : bodies_) {
     moves_.push_back(world.bodies.motion[i] == Motion::kDynamic);
     inertia_.push_back(world.bodies.inertia[i]);
@@ -77,7 +80,14 @@ SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const Bod
   present_.inverse.resize(size);
   spins_.resize(size);
   ahead_.resize(rows);
-  for (std::size_t i = 0; i < rows; ++i) present_.rows[i].solved = ahead_[i].solved = !isForce_[i];
+  for (std::size_t i = 0; i < rows; ++i) {
+    present_.rows[i].solved = ahead_[i].solved = !isForce_[i];
+    const JointShape& shape = topology_->shapes[i];
+    using Form = IslandRow::Form;
+    const Form form = shape.isGap ? Form::kGap : shape.rows == 1 ? Form::kSingle : Form::kRows;
+    present_.rows[i].form = ahead_[i].form = form;
+    isSeenAway_ = isSeenAway_ || !shape.isGap;
+  }
   for (auto* list : {&error_, &lambda_}) list->assign(rows, Vec3::Zero());
   for (auto* list : {&shift_, &twist_, &momentum_}) list->assign(size, Vec3::Zero());
 }
@@ -90,15 +100,37 @@ void SymmetricStep::put(const IslandState& state, const Surroundings& world,
     present_.inverse[i].mass = moves_[i] ? 1 / world.bodies.mass[bodies_[i]] : 0;
   }
   turnInertia();
-  lookAt(trial.start, trial, world, 1);
+  lookAt(to_, trial.start, trial, world, 1);
+}
+
+bool SymmetricStep::isAt(const IslandState& state) const {
+  const IslandState& here = present_.state;
+  const auto same = [](const Pose& a, const Pose& b) {
+    return a.x == b.x && a.q.coeffs() == b.q.coeffs();
+  };
+  return std::equal(here.pose.begin(), here.pose.end(), state.pose.begin(), state.pose.end(),
+                    same) &&
+         std::equal(here.velocity.begin(), here.velocity.end(), state.velocity.begin(),
+                    state.velocity.end(),
+                    [](const Velocity& a, const Velocity& b) { return a.v == b.v && a.w == b.w; });
 }
 
 void SymmetricStep::set(const IslandState& state, const Surroundings& world,
                         const TrialPoses& trial) {
-  put(state, world, trial);
-  stop(0);
+  const bool isThere = isAt(state);
+  if (!isThere || !isMade_) {
+    put(state, world, trial);
+    if (isThere) {
+      takeRows();
+    } else {
+      stop(0);
+    }
+    isMade_ = true;
+    first_ = present_;
+  } else {
+    put(state, trial.start);
+  }
   measure(world, trial);
-  first_ = present_;
 }
 
 void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) {
@@ -108,17 +140,23 @@ void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) 
   for (std::size_t i = 0; i < refs_.size(); ++i) {
     const JointShape& shape = topology_->shapes[i];
     if (!shape.pulls) continue;
-    clear(row);
-    evaluateRow(world.kinds, refs_[i], {trial.start, trial.start, 1}, row);
-    for (int b = 0; row.active && b < shape.bodyCount; ++b) {
+    const IslandRow& here = present_.rows[i];
+    const bool isGap = here.form == IslandRow::Form::kGap;
+    if (!isGap) {
+      clear(row);
+      evaluateRow(world.kinds, refs_[i], {trial.start, trial.start, 1}, row);
+      if (!row.active) continue;
+    }
+    for (int b = 0; b < shape.bodyCount; ++b) {
       const int place = shape.body[b];
-      reach(trial.start[bodies_[place]].x + row.arm[b]);
-      if (turns(place)) levers_[place] = std::max(levers_[place], row.arm[b].norm());
+      const Vec3& arm = isGap ? here.arm[b] : row.arm[b];
+      reach(present_.state.pose[place].x + arm);
+      if (turns(place)) levers_[place] = std::max(levers_[place], arm.norm());
     }
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!moves_[i]) continue;
-    reach(trial.start[bodies_[i]].x);
+    reach(present_.state.pose[i].x);
     size_ = std::max(size_, boundingRadius(world.bodies.shape[bodies_[i]]));
     size_ = std::max(size_, levers_[i]);
   }
@@ -128,11 +166,6 @@ void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) 
 bool SymmetricStep::project(const IslandState& state, double tolerance, const Surroundings& world,
                             const TrialPoses& trial) {
   put(state, world, trial);
-  for (std::size_t i = 0; i < refs_.size(); ++i) {
-    if (!isForce_[i]) present_.rows[i] = ahead_[i];
-    present_.rows[i].solved = !isForce_[i];
-  }
-  if (!refs_.empty()) present_.joints.factorize(present_.rows, present_.inverse);
   bool closed = false;
   for (int k = 0; k < kMostIterations && !closed; ++k) {
     double most = 0;
@@ -151,7 +184,7 @@ bool SymmetricStep::project(const IslandState& state, double tolerance, const Su
       to_.pose[i].q.normalize();
     }
     put(to_, trial.start);
-    lookAt(trial.start, trial, world, 1);
+    lookAt(to_, trial.start, trial, world, 1);
   }
   present_.state = to_;
   put(to_, trial.end);
@@ -185,10 +218,11 @@ void SymmetricStep::takeSpins(IslandState& state) const {
 
 void SymmetricStep::restart() { present_ = first_; }
 
-// `set` makes the rest anew.
+// `set` makes the rest anew, of the same pose.
 void SymmetricStep::archive(Archive& a) {
-  a(size_, levers_, present_.h);
+  a(size_, levers_, present_.h, present_.state.pose, present_.state.velocity);
   for (auto& [next, change] : present_.pulls) a(next, change);
+  if (a.reads()) isMade_ = false;
 }
 
 }  // namespace physics

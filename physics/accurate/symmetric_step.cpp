@@ -7,8 +7,10 @@
 #include "physics/constraints/constraint_symmetric.h"
 
 namespace physics {
+
+// Only rows of other kinds than gaps are evaluated there.
 void SymmetricStep::put(const IslandState& state, std::span<Pose> to) const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) to[bodies_[i]] = state.pose[i];
+  for (std::size_t i = 0; isSeenAway_ && i < bodies_.size(); ++i) to[bodies_[i]] = state.pose[i];
 }
 
 // M^-1 where the island is.
@@ -27,12 +29,20 @@ void SymmetricStep::turnInertia() {
   }
 }
 
-// c and J of the joints, at `now`.
-void SymmetricStep::lookAt(std::span<const Pose> now, const TrialPoses& trial,
-                           const Surroundings& world, double h) {
+// c and J of the joints, where `now` has the poses of `at`.
+void SymmetricStep::lookAt(const IslandState& at, std::span<const Pose> now,
+                           const TrialPoses& trial, const Surroundings& world, double h) {
   JointRow row;
   for (std::size_t i = 0; i < refs_.size(); ++i) {
     if (isForce_[i]) continue;
+    if (ahead_[i].form == IslandRow::Form::kGap) {  // (71), (72)
+      const JointShape& shape = topology_->shapes[i];
+      const Pose &a = at.pose[shape.body[0]], &b = at.pose[shape.body[1]];
+      ahead_[i].arm[0] = a.q * anchors_[i][0];
+      ahead_[i].arm[1] = b.q * anchors_[i][1];
+      error_[i] = (a.x + ahead_[i].arm[0]) - (b.x + ahead_[i].arm[1]);
+      continue;
+    }
     clear(row);
     evaluateRow(world.kinds, refs_[i], {now, trial.start, h}, row);
     error_[i] = row.c;
@@ -83,12 +93,10 @@ void SymmetricStep::sum() {
     const JointShape& shape = topology_->shapes[i];
     for (int b = 0; b < shape.bodyCount; ++b) {
       if (!shape.moves[b]) continue;
-      const int body = shape.body[b];
-      shift_[body] +=
-          present_.inverse[body].mass * (present_.rows[i].linear[b].transpose() * lambda_[i]);
-      twist_[body] += present_.rows[i].angular[b].transpose() * lambda_[i];
+      addPull(present_.rows[i], b, lambda_[i], shift_[shape.body[b]], twist_[shape.body[b]]);
     }
   }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) shift_[i] *= present_.inverse[i].mass;
 }
 
 Vec3 SymmetricStep::momentumOf(std::size_t i) const {
@@ -163,17 +171,19 @@ void SymmetricStep::finish(double h, const Surroundings& world) {
   }
 }
 
+// Rows where the island was last looked at, and their factor.
+void SymmetricStep::takeRows() {
+  std::swap(present_.rows, ahead_);
+  for (std::size_t i = 0; hasForces_ && i < refs_.size(); ++i) {
+    if (isForce_[i]) present_.rows[i].solved = false;
+  }
+  present_.joints.factorize(present_.rows, present_.inverse);
+}
+
 // Takes the velocities that open joints, by rows and inertia where the island now is.
 void SymmetricStep::stop(double h) {
   if (refs_.empty()) return;
-  for (std::size_t i = 0; i < refs_.size(); ++i) {
-    if (!isForce_[i]) {
-      std::swap(present_.rows[i], ahead_[i]);
-    } else {
-      present_.rows[i].solved = false;
-    }
-  }
-  present_.joints.factorize(present_.rows, present_.inverse);
+  takeRows();
   std::vector<Velocity>& velocity = present_.state.velocity;
   for (std::size_t i = 0; i < refs_.size(); ++i) {
     error_[i].setZero();
@@ -182,7 +192,7 @@ void SymmetricStep::stop(double h) {
     for (int b = 0; b < shape.bodyCount; ++b) {
       if (!shape.moves[b]) continue;
       const Velocity& v = velocity[shape.body[b]];
-      error_[i] -= present_.rows[i].linear[b] * v.v + present_.rows[i].angular[b] * v.w;
+      error_[i] -= opening(present_.rows[i], b, v.v, v.w);
     }
   }
   present_.joints.solve(error_);
@@ -193,8 +203,10 @@ void SymmetricStep::stop(double h) {
       if (!shape.moves[b]) continue;
       const BodyInverse& inverse = present_.inverse[shape.body[b]];
       Velocity& v = velocity[shape.body[b]];
-      v.v += inverse.mass * (present_.rows[i].linear[b].transpose() * error_[i]);
-      v.w += inverse.inertia * (present_.rows[i].angular[b].transpose() * error_[i]);
+      Vec3 along = Vec3::Zero(), about = Vec3::Zero();
+      addPull(present_.rows[i], b, error_[i], along, about);
+      v.v += inverse.mass * along;
+      v.w += inverse.inertia * about;
     }
     if (h > 0) {
       // lambda is the force a third of a step after its start, mu that a third before its end.

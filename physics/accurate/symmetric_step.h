@@ -7,6 +7,7 @@
 // displacements: h^2/2 times the forces of (2).
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,11 @@ struct Surroundings {
 template <class Row>
 void takeRow(const Row& row, IslandRow& to) {
   for (int b = 0; b < JointRow::kMostBodies; ++b) {
+    if (to.form == IslandRow::Form::kSingle) {
+      to.linear[b].row(0) = row.linear[b].row(0);
+      to.angular[b].row(0) = row.angular[b].row(0);
+      continue;
+    }
     to.linear[b] = row.linear[b];
     to.angular[b] = row.angular[b];
   }
@@ -61,7 +67,7 @@ class SymmetricStep {
   // where it does not turn.
   std::span<const double> levers() const { return levers_; }
 
-  // Puts the island into a state: rows and factor there.
+  // Puts the island into a state: rows and factor there. Where it ended it goes on.
   void set(const IslandState& state, const Surroundings& world, const TrialPoses& trial);
   const IslandState& state() const { return present_.state; }
   // Spins as angular momenta, over the largest moment of each body, and back: what a flight keeps
@@ -104,14 +110,15 @@ class SymmetricStep {
     double h = 0;  // of the last step
   };
   void put(const IslandState& state, std::span<Pose> to) const;
+  bool isAt(const IslandState& state) const;
   void put(const IslandState& state, const Surroundings& world, const TrialPoses& trial);
   void measure(const Surroundings& world, const TrialPoses& trial);
   void turnInertia();
   template <class Change>  // of the spin of each body that has several, in its own frame
   void changeSpins(IslandState& state, const Change& change) const;
   double leverOf(std::size_t place, const Surroundings& world) const;
-  void lookAt(std::span<const Pose> now, const TrialPoses& trial, const Surroundings& world,
-              double h);
+  void lookAt(const IslandState& at, std::span<const Pose> now, const TrialPoses& trial,
+              const Surroundings& world, double h);
   void lookAtForces(const Surroundings& world, const TrialPoses& trial, double h);
   void guess(double h);
   void sum();
@@ -124,6 +131,7 @@ class SymmetricStep {
   bool close(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
   bool closeAcross(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
   void finish(double h, const Surroundings& world);
+  void takeRows();
   void stop(double h);
   bool meetsLimit(const Surroundings& world, const TrialPoses& trial) const;
   Vec3 momentumOf(std::size_t body) const;
@@ -136,7 +144,10 @@ class SymmetricStep {
   std::vector<double> levers_;
   std::vector<JointRef> refs_, limits_;  // refs_ in the order of elimination
   std::vector<bool> isForce_, isDamped_;
+  std::vector<std::array<Vec3, 2>> anchors_;  // of gaps, in body frames
   bool hasForces_ = false;
+  bool isSeenAway_ = false;  // some rows are evaluated at TrialPoses
+  bool isMade_ = true;       // rows and factor are there; false after its bytes were read
   std::shared_ptr<const JointTopology> topology_;
   Present present_, first_;
   RowSystem all_;  // with the forces

@@ -208,6 +208,8 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
         choice.accept(whole, trial.error, trial.coarser, trial.allowed, dt);
       }
       told.order = std::max(told.order, choice.columns());
+    } else {
+      choice.giveUp();
     }
     hits = false;
     takeOver(w, batch, whole / trial.steps);

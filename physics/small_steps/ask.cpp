@@ -37,10 +37,13 @@ int substepsForTurn(double turn) {
   return static_cast<int>(std::min<double>(std::ceil(turn / kLargestTurn), kMostSubsteps));
 }
 
-// The sag that is small enough for a contact [m].
-double smallSag(const Bodies& b, const KeptContact& c, double size, double dt) {
+// The sag that is small enough for a contact [m]: by accuracy, what a step may err by.
+double smallSag(const Model& w, const KeptContact& c, double size, double dt) {
+  const Bodies& b = w.bodies;
   const double way = dt * (b.velocity[c.a].v - b.velocity[c.b].v).norm();
-  return std::max(kLargestSag * size, std::min(kLargestSagOfWay * way, kLargestStrain * size));
+  const double asked = kShareOfStep * w.settings.accuracy.value_or(0);
+  return std::max(std::max(kLargestSag, asked) * size,
+                  std::min(kLargestSagOfWay * way, kLargestStrain * size));
 }
 
 }  // namespace
@@ -80,7 +83,7 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactB
   const double soft = (1 - law.scale) / (law.scale * law.rate);
   const double size = std::min(radius[c.a], radius[c.b]);
   if (!(size > 0) || isJointed(c)) return of;
-  const double small = smallSag(b, c, size, w.settings.dt);
+  const double small = smallSag(w, c, size, w.settings.dt);
   for (int k = 0; k < c.count; ++k) {
     const double inverse = block.point[k].inverse[l];
     const double lambda = std::min(c.lambda[k], c.before[k]);
