@@ -8,12 +8,12 @@
 namespace physics {
 namespace {
 
-constexpr double kSafety = 0.9;                        // of the step that would just do
-constexpr double kLeastChange = 0.1, kMostChange = 4;  // of a step, from one to the next
+// Of the step that would just do, and of a step from one to the next: what is usual, II.4 there.
+constexpr double kSafety = 0.9, kLeastChange = 0.1, kMostChange = 4;
 // A step that cannot be solved, however short it is for its accuracy, bounds those that follow by
 // half of it; the bound goes up with each one that can be, and is where it was after 14 of them.
 constexpr double kFailed = 0.5, kRegained = 1.05;
-constexpr double kPays = 0.9;  // another order does where it takes so much of the work
+constexpr double kPays = 0.9;  // another order does where it takes so much of the work: as ODEX
 
 int workOf(int columns) { return columns * (columns + 1) / 2; }
 

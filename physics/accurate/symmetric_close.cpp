@@ -86,6 +86,7 @@ bool SymmetricStep::close(double h, double tolerance, const Surroundings& world,
     const double most = tryOut(h, world, trial);
     if (!(most < std::numeric_limits<double>::infinity())) return false;
     if (most <= tolerance && (k > 0 || !hasForces_)) return true;
+    // Less than a bit a try: it has come to rounding, or comes to nothing.
     if (k > 3 && most > 0.5 * last) return most <= 10 * tolerance;
     if (k == 0 && !resolvesForces()) return false;
     if (hasForces_ && (k == 0 || (k == 1 && most > kSlow * last))) {

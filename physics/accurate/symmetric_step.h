@@ -89,7 +89,7 @@ class SymmetricStep {
   void archive(Archive& a);
 
  private:
-  static constexpr int kMostIterations = 16;
+  static constexpr int kMostIterations = 16;  // a digit a try, and there are 16
 
   // What tells of a joint's force, as its lambda in steps of one second.
   struct Pull {

@@ -6,7 +6,7 @@
 namespace physics::collision {
 namespace {
 
-constexpr double kParallel = 1e-8;  // sine squared
+constexpr double kParallel = 1e-8;  // sine squared: a normal known to 1e-12
 constexpr double kSquare = 1e-6;    // cosine
 
 // Best facet of `flat`; `pose` takes the other into its frame.

@@ -7,7 +7,7 @@
 namespace physics::collision {
 namespace {
 
-constexpr double kParallelEdges = 1e-8;  // sine squared
+constexpr double kParallelEdges = 1e-8;  // sine squared: a normal known to 1e-12
 constexpr double kNone = -1e300;
 
 // The edges of Hull boxes: by axis, then by the corner they start from without that axis' bit.

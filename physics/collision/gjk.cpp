@@ -9,7 +9,7 @@
 namespace physics::collision {
 namespace {
 
-constexpr int kMaxIterations = 128;
+constexpr int kMaxIterations = 128;  // a guard: it ends where the simplex comes no closer
 constexpr double kRelative = 1e-14;  // of |v|^2: how far the bound may be from the distance
 
 struct Vertex {
@@ -120,6 +120,7 @@ Distance coreDistance(const Solid& a, const Solid& b, const Relative& pose) {
   double bound = 0;  // the distance is not less: a plane with this gap was seen
   for (int i = 0; i < kMaxIterations; ++i) {
     const double square = v.squaredNorm(), length = std::sqrt(square);
+    // Less than 1e7 roundings of the sizes is no distance: it has no direction.
     result.overlap = simplex.count == 4 || length <= 1e-9 * scale;
     if (result.overlap) return result;
     const Vertex next = vertexAlong(a, b, pose, -v);

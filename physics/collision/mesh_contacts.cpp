@@ -109,7 +109,8 @@ double touchMesh(const Solid& a, const Solid& mesh, const MeshLook& look, Manifo
   more.clear();
   first.count = 0;
   met = false;
-  double distance = look.reach * (1 + 1e-9);  // of all that is not within the bounds
+  // Of all that is not within the bounds, which are exact but for rounding.
+  double distance = look.reach * (1 + 1e-9);
   for (const int face : w.found) {
     w.triangle.set(tree.mesh(), face);
     Manifold manifold;

@@ -7,7 +7,7 @@
 namespace physics::collision {
 namespace {
 
-constexpr int kRim = 16;
+constexpr int kRim = 16;  // edges are within the rim by 1 - cos(pi/16), 2 % of the radius
 constexpr double kCos[5] = {1, 0.92387953251128674, 0.70710678118654752, 0.38268343236508977, 0};
 
 // cos(2 pi k / kRim), the same bits everywhere.
@@ -53,6 +53,7 @@ void sidePatch(const Solid& s, const Vec3& d, Patch& patch) {
   patch.add(core, 1);
 }
 
+// Within 60 degrees of the axis.
 bool facesWithCap(const Vec3& d) { return std::abs(d.y()) > 0.5; }
 
 Patch::Corner cut(const Patch::Corner& from, const Patch::Corner& to, double fromOut, double toOut,

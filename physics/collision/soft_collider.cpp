@@ -31,7 +31,7 @@ Placed place(const SoftElement& element, std::span<const Pose> start) {
   placed.pose.x = 0.5 * (from + to);
   const Vec3 along = to - from;
   const double length = along.norm();
-  const bool line = length > 1e-12;
+  const bool line = length > 1e-12;  // 1e4 roundings at 1 m: it has a direction
   placed.solid.kind = line ? Kind::capsule : Kind::sphere;
   placed.solid.halfLength = 0.5 * length;
   placed.solid.coreRadius = placed.solid.half.y() = 0.5 * length;

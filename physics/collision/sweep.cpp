@@ -9,7 +9,7 @@
 namespace physics::collision {
 namespace {
 
-constexpr int kMaxAdvances = 64;
+constexpr int kMaxAdvances = 64;  // what then still closes in counts as a touch
 
 // Highest turning rate of `along` [rad per step]: the interpolated quaternion is fastest half way.
 double turningRate(const Way& way) {
@@ -41,6 +41,7 @@ std::optional<double> firstTouch(const Solid& a, const Way& wayA, const Solid& b
     if (now.distance <= near) return part;
     const double closing = turning - move.dot(poseB.q * now.n);
     if (part >= 1 || closing <= 0) return std::nullopt;
+    // To half of `near`: the next look finds it within, though `closing` is a bound.
     part = std::min(1.0, part + (now.distance - 0.5 * near) / closing);
   }
   return part;  // still closing in: as good as a touch

@@ -15,7 +15,7 @@ namespace physics::collision {
 namespace {
 
 constexpr double kLean = 1e-3;           // rad: directions this close are one
-constexpr double kAlongTriangle = 1e-8;  // sine squared: parallel
+constexpr double kAlongTriangle = 1e-8;  // sine squared: parallel, else known to 1e-12
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 const Vec3& corner(const Triangle& t, int k) { return t.solid.hull->vertices[k % 3]; }

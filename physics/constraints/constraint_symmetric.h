@@ -70,7 +70,7 @@ double projectVelocity(const C& item, Bodies& bodies, Scratch<C>& s) {
   if (!s.row.active || s.row.low != -kFree || s.row.high != kFree) return 0;  // a limit at rest
   auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
   if (!(a.trace() > 1e-300)) return 0;
-  a.diagonal().array() += 1e-12 * a.trace();
+  a.diagonal().array() += 1e-12 * a.trace();  // 1e4 roundings: regular where its rows repeat
   typename Set<C>::Vector rate = Set<C>::Vector::Zero();
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     const Velocity& velocity = bodies.velocity[item.bodies[b]];

@@ -95,7 +95,7 @@ Vec3 normalOf(const ContactPair& pair, std::span<const Pose> pose) {
   if (pair.radial) {
     const Vec3 between = a.x - b.x;
     const double distance = between.norm();
-    if (distance > 1e-9) return between / distance;
+    if (distance > 1e-9) return between / distance;  // 1e7 roundings at 1 m: a direction
   }
   return pair.normal;
 }

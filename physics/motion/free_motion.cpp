@@ -93,7 +93,7 @@ struct BackTurn {
 // regular, the first order of it in h is: I - e h [M']x.
 FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end,
                    const Vec3& guess) {
-  constexpr int kMostIterations = 30;
+  constexpr int kMostIterations = 30;  // Newton doubles its digits: more do not converge
   const Vec3 momentum = inertia.cwiseProduct(omega);
   const double scale = momentum.norm();
   if (scale == 0) return {omega, omega, true};
@@ -102,6 +102,7 @@ FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end
     const BackTurn back(dt * turn.mean);
     const Vec3 after = back.of(momentum);
     const Vec3 residual = inertia.cwiseProduct(turn.mean) - ((1 - end) * momentum + end * after);
+    // Two roundings; half of the digits where rounding keeps it from getting there.
     if (residual.norm() <= 4e-16 * scale || k == kMostIterations - 1) {
       turn.converged = residual.norm() <= 1e-9 * scale;
       turn.after = after.cwiseQuotient(inertia);
@@ -143,6 +144,7 @@ bool isIsotropic(const Vec3& inertia) {
 
 Vec3 unwrapped(const Vec3& turn, const Vec3& free) {
   const double angle = turn.norm();
+  // Within 1 rad no whole turn is missing; of a turn that is rounding there is no axis.
   if (angle < 1e-9 || free.squaredNorm() < 1) return turn;
   const Vec3 axis = turn / angle;
   return (angle + 2 * kPi * std::nearbyint((free.dot(axis) - angle) / (2 * kPi))) * axis;

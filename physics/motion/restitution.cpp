@@ -271,6 +271,7 @@ int alone(const Impact& impact, const std::vector<Given>& given, const Bodies& b
     if (!impact.touches[k]) continue;
     if (any < 0) any = k;
     const double apart = std::abs(impact.speed[k] - impact.speed[any]);
+    // Of equal speed, but for 1e7 roundings.
     if (impact.speed[k] == 0 || apart > -1e-9 * impact.speed[k]) return -1;
   }
   return meetsNothingElse(pair, given, bodies, flight) ? any : -1;

@@ -173,7 +173,7 @@ void SmallSteps::Impl::begin(const Model& w, const Batch& batch, double dt) {
 // estimate tells.
 void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int count,
                                          StepReport& report) {
-  constexpr double kLeastPart = 1.0 / 1024;
+  constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
   constexpr int kMostPlaces = 4;
   StepChoice& choice = choices[batch.bodies.front()];
   AccuracyReport told;

@@ -62,7 +62,7 @@ double SmallSteps::Impl::gapAfter(const Model& w, const Batch& batch, double tim
 // As long as nothing in the batch touches its bodies fly, to where two of them meet. Returns for
 // how long.
 double SmallSteps::Impl::flyToTouch(Model& w, const Batch& batch, double most) {
-  constexpr double kKnownGap = 1e-13;  // m
+  constexpr double kKnownGap = 1e-13;  // m: 1e3 roundings of places some 1 m away
   constexpr int kLooks = 4, kMostSecants = 40;
   const Bodies& b = w.bodies;
   const auto isDriven = [&](BodyId i) { return b.motion[i] == Motion::kKinematic; };
@@ -79,7 +79,7 @@ double SmallSteps::Impl::flyToTouch(Model& w, const Batch& batch, double most) {
     if (!(then > 0)) closed = time, overlap = -then;
   }
   // Secants between a time with a gap and one without; what stays is given half of its weight.
-  const double known = 1e-15 * most;
+  const double known = 1e-15 * most;  // some roundings: there is no time between
   for (int k = 0; k < kMostSecants && closed - open > known; ++k) {
     const double time = (overlap * open + gap * closed) / (overlap + gap);
     const double then = gapAfter(w, batch, time);

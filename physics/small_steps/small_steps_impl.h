@@ -161,9 +161,9 @@ struct SmallSteps::Impl {
   std::vector<Accurate> accurate;  // islands without contacts that can step by an accuracy
   std::vector<int> accurateOf;     // by first body of these, -1: none
   std::vector<Pose> trialNow, trialStart, trialEnd;
-  static constexpr int kMostTouchingColumns = 4;
-  std::vector<StepChoice> choices;  // by first body of an island that touches
-  struct {                          // of the batch that steps accurately
+  static constexpr int kMostTouchingColumns = 4;  // of 2 at least: one has no estimate
+  std::vector<StepChoice> choices;                // by first body of an island that touches
+  struct {                                        // of the batch that steps accurately
     Tableau tableau;
     std::vector<Pose> pose;
     std::vector<Velocity> velocity;

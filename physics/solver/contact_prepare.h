@@ -5,7 +5,7 @@
 namespace physics {
 namespace {
 
-constexpr float kTiny = 1e-30f;
+constexpr float kTiny = 1e-30f;    // in place of zero, which empty lanes would be divided by
 constexpr float kNoTurn = 1e-20f;  // [1/(kg m^2)], far above kUnturned^2
 
 // The place of the coupling of points i < j.

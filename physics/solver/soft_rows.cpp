@@ -65,7 +65,7 @@ void prepareSoftRows(std::span<const SoftContact> contacts, std::span<const Pose
     const double link = std::max(row.first * (1 - t) * (1 - t) + row.second * t * t,
                                  kLeastShare * (row.first + row.second));
     const double a = link + row.inverseMass + lever.dot(row.turn);
-    row.inverse = a > 1e-300 ? 1 / a : 0;
+    row.inverse = a > 1e-300 ? 1 / a : 0;  // else it moves nothing
     row.tangents.col(0) = row.n.unitOrthogonal();
     row.tangents.col(1) = row.n.cross(row.tangents.col(0));
     Eigen::Matrix<double, 3, 2> levers;

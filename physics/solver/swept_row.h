@@ -110,13 +110,13 @@ typename Set<C>::Vector clamped(const SweptRow<C>& swept, const typename Set<C>:
 template <class C>
 void invert(SweptRow<C>& swept, typename SweptRow<C>::Matrix a, double regularisation) {
   const double mean = a.trace() / C::kRows;
-  swept.swept = mean > 1e-300;
+  swept.swept = mean > 1e-300;  // else it moves nothing
   swept.held = false;
   swept.own = mean;
   if (!swept.swept) return;
   swept.alpha.diagonal().array() += regularisation * mean;
   a += swept.alpha;
-  a.diagonal().array() += 1e-12 * mean;
+  a.diagonal().array() += 1e-12 * mean;  // 1e4 roundings: regular where its rows repeat
   swept.inverse = a.inverse();
 }
 
