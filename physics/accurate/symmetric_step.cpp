@@ -78,7 +78,7 @@ void SymmetricStep::lookAtForces(const Surroundings& world, const TrialPoses& tr
 void SymmetricStep::guess(double h) {
   for (std::size_t i = 0; i < refs_.size(); ++i) {
     const Pull& pull = present_.pulls[i];
-    const double further = present_.h > 0 ? h / present_.h : 0;
+    const double further = present_.h > 0 ? 1 + h / present_.h : 0;
     lambda_[i] = h * h * (pull.next + further * pull.change);
   }
 }
@@ -212,7 +212,7 @@ void SymmetricStep::stop(double h) {
       // lambda is the force a third of a step after its start, mu that a third before its end.
       Pull& pull = present_.pulls[i];
       const Vec3 end = error_[i] / h;
-      pull.change = 2 * (end - pull.next);
+      pull.change = end - pull.next;
       pull.next = end;
     }
   }

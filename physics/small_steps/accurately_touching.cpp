@@ -92,6 +92,7 @@ void SmallSteps::Impl::addRow(Model& w, Batch& batch, double whole, int steps, S
   }
   trial.tableau.add(steps, 1, trial.pose, trial.velocity);
   trial.steps = steps;
+  noteLoads(batch, whole / steps);
   trial.coarser = trial.error;
   if (trial.tableau.rows() == 1) return;
   trial.error = trial.tableau.difference(trial.extent, trial.time, trial.levers, trial.allowed,
@@ -142,11 +143,65 @@ int SmallSteps::Impl::changesIn(const Batch& batch) const {
   return count;
 }
 
-// What rests is left to rest: where the last row's end is known no better, it is that.
+// What contacts carry where a row ends, and where the one before it ended.
+void SmallSteps::Impl::noteLoads(const Batch& batch, double h) {
+  std::swap(trial.loads, trial.coarserLoads);
+  trial.loads.resize(batch.blocks.size());
+  for (std::size_t i = 0; i < batch.blocks.size(); ++i) {
+    const ContactBlock& block = batch.blocks[i];
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      for (int k = 0; k < block.points; ++k) {
+        trial.loads[i][l][k] = block.point[k].lambda[l] / (h * h);
+      }
+    }
+  }
+}
+
+// A contact gives way by its load and h^2, so that what rests would be at another place in each
+// row. The load that two rows agree on is the contact's: about it the law is, as it is about the
+// loads that a scene starts with, and what rests is where it touches in all of them.
+void SmallSteps::Impl::holdLoads(const Batch& batch) {
+  if (trial.changes > 0) return;
+  for (std::size_t i = 0; i < batch.blocks.size(); ++i) {
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (batch.blocks[i].contact[l] < 0) continue;
+      KeptContact& c = contacts[batch.blocks[i].contact[l]];
+      const auto isNone = [](double load) { return load == 0; };
+      if (!std::all_of(c.held.begin(), c.held.end(), isNone)) continue;
+      const auto &load = trial.loads[i][l], &coarser = trial.coarserLoads[i][l];
+      double sum = 0, difference = 0;
+      for (int k = 0; k < c.count; ++k) {
+        sum += load[k];
+        difference = std::max(difference, std::abs(load[k] - coarser[k]));
+      }
+      if (difference <= trial.allowed * sum) std::copy_n(load.begin(), c.count, c.held.begin());
+    }
+  }
+}
+
+// Where `trial` is, something is off the ground that the last row ends on.
+bool SmallSteps::Impl::opensAtTrial(const Bodies& b, const Batch& batch) {
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) trialNow[batch.bodies[k]] = trial.pose[k];
+  for (std::size_t i = 0; i < batch.blocks.size(); ++i) {
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (batch.blocks[i].contact[l] < 0) continue;
+      const KeptContact& c = contacts[batch.blocks[i].contact[l]];
+      const auto& load = trial.loads[i][l];
+      const bool carries =
+          std::any_of(load.begin(), load.begin() + c.count, [](double of) { return of > 0; });
+      if (carries && gapAtTrial(b, c) > kClose) return true;
+    }
+  }
+  return false;
+}
+
+// What rests is left to rest: where the last row's end is known no better, it is that. And where
+// contacts hold there: what extrapolates does not know that nothing passes a surface.
 void SmallSteps::Impl::takeBest(Model& w, const Batch& batch) {
   if (trial.changes > 0) return;
   if (!(trial.tableau.gain(trial.extent, trial.time, trial.levers) > kKnown)) return;
   trial.tableau.best(trial.pose, trial.velocity);
+  if (opensAtTrial(w.bodies, batch)) return;
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
     w.bodies.pose[batch.bodies[k]] = trial.pose[k];
     w.bodies.velocity[batch.bodies[k]] = trial.velocity[k];
@@ -169,8 +224,8 @@ void SmallSteps::Impl::begin(const Model& w, const Batch& batch, double dt) {
 
 // An island that touches, by the substeps of the default: their error has all powers of h while
 // nothing comes into touch or leaves it, and the steps are divided about where something does.
-// Where that is in many places at once no step resolves it: it goes on by the default, and the
-// estimate tells.
+// Where bodies err or contacts change in many places at once no step resolves it: it goes on by the
+// default, and the estimate tells.
 void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int count,
                                          StepReport& report) {
   constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
@@ -196,7 +251,8 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
     keepStart(w, batch);
     tryOut(w, batch, whole, choice, most, report);
     const bool isSmall = trial.error <= trial.allowed;
-    if (!isSmall && whole > kLeastPart * dt && trial.places <= kMostPlaces) {
+    const bool isFew = trial.places <= kMostPlaces && trial.changes <= kMostPlaces;
+    if (!isSmall && whole > kLeastPart * dt && isFew) {
       ++told.rejected;
       goBack(w.bodies, batch);
       choice.reject(whole, trial.error, trial.allowed);
@@ -213,6 +269,7 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
     }
     hits = false;
     takeOver(w, batch, whole / trial.steps);
+    holdLoads(batch);
     batch.joints.finish(w.kinds, whole / trial.steps);
     ++told.accepted;
     told.least = told.least > 0 ? std::min(told.least, whole) : whole;

@@ -37,16 +37,18 @@ int substepsForTurn(double turn) {
   return static_cast<int>(std::min<double>(std::ceil(turn / kLargestTurn), kMostSubsteps));
 }
 
-// The sag that is small enough for a contact [m]: by accuracy, what a step may err by.
-double smallSag(const Model& w, const KeptContact& c, double size, double dt) {
+}  // namespace
+
+// The sag that is small enough for a contact [m]: where steps by an accuracy resolve what the
+// island does, what they may err by.
+double SmallSteps::Impl::smallSag(const Model& w, const KeptContact& c, double size) const {
   const Bodies& b = w.bodies;
-  const double way = dt * (b.velocity[c.a].v - b.velocity[c.b].v).norm();
-  const double asked = kShareOfStep * w.settings.accuracy.value_or(0);
+  const double way = w.settings.dt * (b.velocity[c.a].v - b.velocity[c.b].v).norm();
+  const bool isKnown = w.settings.accuracy && choices[rootOf(w, c)].resolves();
+  const double asked = isKnown ? kShareOfStep * *w.settings.accuracy : 0;
   return std::max(std::max(kLargestSag, asked) * size,
                   std::min(kLargestSagOfWay * way, kLargestStrain * size));
 }
-
-}  // namespace
 
 // What the sag of an island is to be, as a share of what is small.
 double SmallSteps::Impl::sagOf(BodyId root) const {
@@ -83,7 +85,7 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactB
   const double soft = (1 - law.scale) / (law.scale * law.rate);
   const double size = std::min(radius[c.a], radius[c.b]);
   if (!(size > 0) || isJointed(c)) return of;
-  const double small = smallSag(w, c, size, w.settings.dt);
+  const double small = smallSag(w, c, size);
   for (int k = 0; k < c.count; ++k) {
     const double inverse = block.point[k].inverse[l];
     const double lambda = std::min(c.lambda[k], c.before[k]);

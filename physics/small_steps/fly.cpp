@@ -40,6 +40,18 @@ void SmallSteps::Impl::fly(Model& w) {
   }
 }
 
+// The least gap of a contact where `trialNow` has its bodies [m]; those that do not move are put
+// there.
+double SmallSteps::Impl::gapAtTrial(const Bodies& b, const KeptContact& c) {
+  for (const BodyId i : {c.a, c.b}) {
+    if (!isMovable(b, i)) trialNow[i] = b.pose[i];
+  }
+  const ContactPair pair = pairOf(c, 0);
+  double least = std::numeric_limits<double>::infinity();
+  for (int p = 0; p < pair.count; ++p) least = std::min(least, gapOf(pair, p, trialNow));
+  return least;
+}
+
 // The least gap of a batch's contacts, where its bodies are after a flight of so long [m].
 double SmallSteps::Impl::gapAfter(const Model& w, const Batch& batch, double time) {
   for (const BodyId i : batch.bodies) {
@@ -49,12 +61,7 @@ double SmallSteps::Impl::gapAfter(const Model& w, const Batch& batch, double tim
   }
   double least = std::numeric_limits<double>::infinity();
   for (const int k : batch.contacts) {
-    const KeptContact& c = contacts[k];
-    for (const BodyId i : {c.a, c.b}) {
-      if (!isMovable(w.bodies, i)) trialNow[i] = w.bodies.pose[i];
-    }
-    const ContactPair pair = pairOf(c, 0);
-    for (int p = 0; p < pair.count; ++p) least = std::min(least, gapOf(pair, p, trialNow));
+    least = std::min(least, gapAtTrial(w.bodies, contacts[k]));
   }
   return least;
 }

@@ -172,6 +172,9 @@ struct SmallSteps::Impl {
     double extent = 0, allowed = 0, error = 0, coarser = 0;  // coarser: by a column less
     int places = 0;                                          // bodies that err by too much
     int changes = 0, steps = 0;  // contacts that changed; substeps of the last row
+    // N, by block, lane and point: of the last row, and of the one before.
+    using LaneLoads = std::array<std::array<double, ContactBlock::kPoints>, ContactBlock::kLanes>;
+    std::vector<LaneLoads> loads, coarserLoads;
   } trial;
   double now = 0;                     // s, where what is stepped next starts
   std::vector<LaneStart> swept;       // by slot: after the last sweep
@@ -227,6 +230,9 @@ struct SmallSteps::Impl {
   void addRow(Model& w, Batch& batch, double whole, int steps, StepReport& report);
   void tryOut(Model& w, Batch& batch, double whole, StepChoice& choice, int most,
               StepReport& report);
+  void noteLoads(const Batch& batch, double h);
+  void holdLoads(const Batch& batch);
+  bool opensAtTrial(const Bodies& b, const Batch& batch);
   int changesIn(const Batch& batch) const;
   void takeBest(Model& w, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch);
@@ -326,6 +332,7 @@ struct SmallSteps::Impl {
   void ask(Model& w, const Batch& batch, double h);
   void fly(Model& w);
   void fly(const Model& w, BodyId i, double dt, Pose& pose, Velocity& v) const;
+  double gapAtTrial(const Bodies& b, const KeptContact& c);
   double gapAfter(const Model& w, const Batch& batch, double time);
   double flyToTouch(Model& w, const Batch& batch, double most);
   void rest(Batch& batch);
@@ -349,6 +356,7 @@ struct SmallSteps::Impl {
   void goAhead(const Model& w, Batch& batch);
   BodyId rootOf(const Model& w, const KeptContact& c) const;
   bool isJointed(const KeptContact& c) const;
+  double smallSag(const Model& w, const KeptContact& c, double size) const;
   Softness softnessOf(const Bodies& b, const KeptContact& c) const;
   void fill(const Model& w, double h, bool takesTurns, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
