@@ -8,9 +8,10 @@
 namespace physics::collision {
 namespace {
 
-constexpr double kSlack = 0.04;      // of the size: how much bounds are fatter than they must be
-constexpr double kAhead = 4;         // steps of the present motion that the bounds hold
-constexpr double kPlaneReach = 1e4;  // m: where bodies lie on a plane that turns
+constexpr double kSlack = 0.04;  // of the size: how much bounds are fatter than they must be
+constexpr double kAhead = 4;     // steps of the present motion that the bounds hold
+// m: bodies lie no further along a plane that turns; what a step turns it by counts so far out.
+constexpr double kPlaneReach = 1e4;
 
 Bounds grown(const Bounds& bounds, double by) {
   return {bounds.low - Vec3::Constant(by), bounds.high + Vec3::Constant(by)};

@@ -32,18 +32,19 @@ enum class Regularisation {
 struct ContactSettings {
   Friction friction;
   double restitution = 0;         // 0..1
-  double maxSeparationSpeed = 1;  // overlap that exists is resolved no faster [m/s]; not (52)'s
-  double margin = 0.02;           // gaps below this are watched at rest [m]
+  // m/s: overlap that exists is resolved no faster, than what a fall of 5 cm ends with; not (52)'s.
+  double maxSeparationSpeed = 1;
+  double margin = 0.02;  // m: gaps below are watched at rest; a fall takes four frames for it
 };
 
 // Islands that have come to rest are left alone until something touches them. effects/sleep.h
 struct SleepSettings {
   double speed = 1e-3;  // at rest: all of an island slower than this [m/s]
-  double time = 0.5;    // for so long [s]
+  double time = 0.5;    // for so long [s]: a quarter of a swing of a pendulum of 1 m
 };
 
 struct Settings {
-  double dt = 1.0 / 60;            // one step() [s]
+  double dt = 1.0 / 60;            // one step() [s]: a frame of a usual display
   std::optional<double> accuracy;  // of the default method: relative to the size of what moves;
                                    // absent: as fast as it is. accurate/extrapolation.h
   // Absent: four, but of the default method each island takes what it asks for; else no fewer.

@@ -232,6 +232,10 @@ void SmallSteps::Impl::fill(const Model& w, double h, bool takesTurns, ContactBl
   }
 }
 
+FrictionAt SmallSteps::Impl::frictionAt(const Model& w, const Batch& batch) const {
+  return {static_cast<float>(w.settings.contact->margin), stepsAccurately(w, batch)};
+}
+
 void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
   w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
     for (int s = std::max(from, 1); s < to; ++s) {
@@ -240,10 +244,10 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
       startRows(batch.motions[s]);
     }
   });
-  const float reach = static_cast<float>(w.settings.contact->margin);
+  const FrictionAt friction = frictionAt(w, batch);
   forEachRun(w, batch, [&](int from, int to) {
     for (int i = from; i < to; ++i) fill(w, h, batch.takesTurns(), batch.blocks[i]);
-    contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), reach);
+    contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), friction);
   });
   noteDeep(w, batch, h);
 }

@@ -46,10 +46,13 @@ double SmallSteps::Impl::gapAtTrial(const Bodies& b, const KeptContact& c) {
   for (const BodyId i : {c.a, c.b}) {
     if (!isMovable(b, i)) trialNow[i] = b.pose[i];
   }
-  const ContactPair pair = pairOf(c, 0);
-  double least = std::numeric_limits<double>::infinity();
-  for (int p = 0; p < pair.count; ++p) least = std::min(least, gapOf(pair, p, trialNow));
-  return least;
+  return leastGapOf(c, trialNow);
+}
+
+// No contact of the batch touches.
+bool SmallSteps::Impl::isOpen(const Bodies& b, const Batch& batch) const {
+  return std::all_of(batch.contacts.begin(), batch.contacts.end(),
+                     [&](int k) { return leastGapOf(contacts[k], b.pose) > kClose; });
 }
 
 // The least gap of a batch's contacts, where its bodies are after a flight of so long [m].
@@ -77,8 +80,8 @@ double SmallSteps::Impl::flyToTouch(Model& w, const Batch& batch, double most) {
   if (batch.isMixed() || std::any_of(batch.contacts.begin(), batch.contacts.end(), byDriven)) {
     return 0;
   }
+  if (!isOpen(b, batch)) return 0;
   double open = 0, gap = gapAfter(w, batch, 0), closed = 0, overlap = 0;
-  if (!(gap > kClose)) return 0;
   for (int look = 1; look <= kLooks && closed == 0; ++look) {
     const double time = look == kLooks ? most : look * most / kLooks,
                  then = gapAfter(w, batch, time);

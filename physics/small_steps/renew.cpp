@@ -1,4 +1,5 @@
 // Rows of contacts anew where a body has turned so far that its arms and inertia are others.
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 
@@ -7,7 +8,12 @@
 namespace physics {
 namespace {
 
-constexpr double kFar = 0.05;  // rad
+constexpr double kFar = 0.05;  // rad: as of what is solved at once, rows are taken as straight
+
+// It turns without a change of arms and inertia.
+bool isRound(const Bodies& b, BodyId i) {
+  return std::holds_alternative<Sphere>(b.shape[i]) && isIsotropic(b.inertia[i]);
+}
 
 // Lane l of one block to another, which lies as eight numbers a row.
 void copyLane(const ContactBlock& from, int l, ContactBlock& to) {
@@ -50,16 +56,40 @@ void measureFromStart(const std::vector<LaneMotion>& motions, int l, ContactBloc
 
 }  // namespace
 
-// True: some of the batch have turned far, and the rows of those are to be prepared anew.
-bool SmallSteps::Impl::findTurned(Batch& batch) {
+// The normal of lane l joins two centres, and they have moved past each other by an angle of `far`.
+bool SmallSteps::Impl::turnsNormal(const ContactBlock& block, int l,
+                                   const std::vector<LaneMotion>& motions, double far) const {
+  if (block.contact[l] < 0) return false;
+  const KeptContact& c = contacts[block.contact[l]];
+  if (!c.radial) return false;
+  const LaneMotion &a = motions[block.bodyA[l]], &b = motions[block.bodyB[l]];
+  const auto motion = [](const LaneMotion& m) { return Vec3(m.du[0], m.du[1], m.du[2]); };
+  const Vec3 n(block.n[0][l], block.n[1][l], block.n[2][l]);
+  return n.cross(motion(a) - motion(b)).norm() > far * (c.points[0].radiusA + c.points[0].radiusB);
+}
+
+// True: some of the batch have turned far, and the rows of those are to be prepared anew. By an
+// accuracy that is as far as a step may err: what the rows of a tableau have in common it does not
+// see. Then normals between centres turn as well, and what is round has no other.
+bool SmallSteps::Impl::findTurned(const Model& w, Batch& batch) const {
+  const bool isAsked = stepsAccurately(w, batch);
+  const double far = isAsked ? std::min(kFar, trial.allowed) : kFar;
   bool some = false;
   batch.turned.assign(batch.motions.size(), 0);
   for (std::size_t s = 1; s < batch.motions.size(); ++s) {
     const auto& turn = batch.motions[s].dturn;
     const Vec3 theta = rotationOf(batch.masses[s], Vec3(turn[0], turn[1], turn[2]));
-    if (theta.squaredNorm() <= kFar * kFar) continue;
+    if (theta.squaredNorm() <= far * far) continue;
+    if (isAsked && isRound(w.bodies, batch.slots[s])) continue;
     batch.turned[s] = 1;
     some = true;
+  }
+  for (std::size_t i = 0; isAsked && i < batch.blocks.size(); ++i) {
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (!turnsNormal(batch.blocks[i], l, batch.motions, far)) continue;
+      batch.turned[batch.blocks[i].bodyA[l]] = batch.turned[batch.blocks[i].bodyB[l]] = 1;
+      some = true;
+    }
   }
   return some;
 }
@@ -81,8 +111,7 @@ void SmallSteps::Impl::renew(const Model& w, const Batch& batch, ContactBlock& b
       emptyLane(fresh, l);
     }
   }
-  const float reach = static_cast<float>(w.settings.contact->margin);
-  contactKernels().prepare(&fresh, 1, batch.masses.data(), reach);
+  contactKernels().prepare(&fresh, 1, batch.masses.data(), frictionAt(w, batch));
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (!(lanes >> l & 1)) continue;
     measureFromStart(batch.motions, l, fresh);
@@ -91,7 +120,7 @@ void SmallSteps::Impl::renew(const Model& w, const Batch& batch, ContactBlock& b
 }
 
 void SmallSteps::Impl::renewTurned(Model& w, Batch& batch) {
-  if (batch.blocks.empty() || !findTurned(batch)) return;
+  if (batch.blocks.empty() || !findTurned(w, batch)) return;
   for (std::size_t s = 1; s < batch.slots.size(); ++s) {
     if (!batch.turned[s]) continue;
     batch.masses[s] = laneMassOf(masses[batch.slots[s]]);

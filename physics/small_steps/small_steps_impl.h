@@ -306,7 +306,10 @@ struct SmallSteps::Impl {
   void solveVelocities(Model& w, Batch& batch, double h);
   void sweepSoft(Batch& batch);
   void substep(Model& w, Batch& batch, double h, StepReport& report);
-  static bool findTurned(Batch& batch);
+  bool findTurned(const Model& w, Batch& batch) const;
+  bool turnsNormal(const ContactBlock& block, int l, const std::vector<LaneMotion>& motions,
+                   double far) const;
+  FrictionAt frictionAt(const Model& w, const Batch& batch) const;
   void renew(const Model& w, const Batch& batch, ContactBlock& block) const;
   void renewTurned(Model& w, Batch& batch);
   void takeOver(Model& w, Batch& batch, double h);
@@ -333,6 +336,7 @@ struct SmallSteps::Impl {
   void fly(Model& w);
   void fly(const Model& w, BodyId i, double dt, Pose& pose, Velocity& v) const;
   double gapAtTrial(const Bodies& b, const KeptContact& c);
+  bool isOpen(const Bodies& b, const Batch& batch) const;
   double gapAfter(const Model& w, const Batch& batch, double time);
   double flyToTouch(Model& w, const Batch& batch, double most);
   void rest(Batch& batch);

@@ -85,15 +85,22 @@ struct PositionSweep {
   bool onlyDeep = false;  // only those of bodies that have something deep about them
 };
 
+// Where a contact's friction acts: amid its points, or where the pressure of what they carry does.
+// Rocking, that is the edge that is stood on; amid the points the load's noise in heaps is not
+// seen.
+struct FrictionAt {
+  float reach;          // m: points with larger gaps do not count, where none carries
+  bool byLoad = false;  // true: by what they carry
+};
+
 struct VelocitySweep {
   ContactRows rows = ContactRows::kAll;
   bool first = false, last = false;  // of a substep: gaps are measured, the change is summed up
 };
 
 struct ContactKernels {
-  // Everything that follows from arms, n, gaps, lambda and bodies. `reach` [m]: gaps beyond it do
-  // not count for the centre of friction.
-  void (*prepare)(ContactBlock* blocks, int count, const LaneMass* masses, float reach);
+  // Everything that follows from arms, n, gaps, lambda and bodies.
+  void (*prepare)(ContactBlock* blocks, int count, const LaneMass* masses, FrictionAt friction);
   void (*warmStart)(ContactBlock* blocks, int count, LaneMotion* motions);
   // lambda^T J u of each lane: eight numbers to a block.
   void (*measureWork)(const ContactBlock* blocks, int count, const LaneMotion* motions,

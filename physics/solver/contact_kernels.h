@@ -195,8 +195,8 @@ inline void forEachBlock(Block* blocks, int count, F&& f) {
   }
 }
 
-void prepareAll(ContactBlock* blocks, int count, const LaneMass* masses, float reach) {
-  for (int i = 0; i < count; ++i) prepareBlock(blocks[i], masses, reach);
+void prepareAll(ContactBlock* blocks, int count, const LaneMass* masses, FrictionAt friction) {
+  for (int i = 0; i < count; ++i) prepareBlock(blocks[i], masses, friction);
 }
 void warmStartAll(ContactBlock* blocks, int count, LaneMotion* motions) {
   forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {

@@ -79,19 +79,23 @@ inline void prepareFriction(ContactBlock& m, const Lanes3& n, const Roots& a, co
   store(t2.lambda, dot(last, d2));
 }
 
-inline void prepareBlock(ContactBlock& m, const LaneMass* masses, float reach) {
+inline void prepareBlock(ContactBlock& m, const LaneMass* masses, FrictionAt friction) {
   const Lanes zero = all(0), one = all(1), tiny = all(kTiny), soft = load(m.scale);
   const Roots a = gatherMass(m.bodyA, masses), b = gatherMass(m.bodyB, masses);
   store(m.massA, a.mass);
   store(m.massB, b.mass);
   const Lanes3 n = load(m.n);
   Lanes3 centreA = {zero, zero, zero}, centreB = centreA;
-  Lanes sum = tiny;
+  Lanes sum = tiny, carried = zero;
+  if (friction.byLoad) {
+    for (int i = 0; i < m.points; ++i) carried = carried + load(m.point[i].lambda);
+  }
   for (int i = 0; i < m.points; ++i) {
     const ContactBlock::Point& p = m.point[i];
     const Lanes exists = load(p.inverse);  // 1 or 0, from the host
-    const Lanes near = larger(smaller(all(2) - load(m.gap[i]) / all(reach), one), all(1e-3f));
-    const Lanes weight = near * exists;
+    const Lanes near =
+        larger(smaller(all(2) - load(m.gap[i]) / all(friction.reach), one), all(1e-3f));
+    const Lanes weight = wherePositive(carried, load(p.lambda), near * exists);
     centreA = centreA + load(p.wA) * weight;
     centreB = centreB + load(p.wB) * weight;
     sum = sum + weight;

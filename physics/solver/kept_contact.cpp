@@ -97,6 +97,18 @@ Vec3 normalOf(const KeptContact& contact, std::span<const Pose> pose) {
   return contact.normal;
 }
 
+double leastGapOf(const KeptContact& c, std::span<const Pose> pose) {
+  const Vec3 n = normalOf(c, pose);
+  const Pose &a = pose[c.a], &b = pose[c.b];
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < c.count; ++k) {
+    const ContactPoint& shape = c.points[k];
+    const Vec3 apart = (a.x + a.q * shape.coreA) - (b.x + b.q * shape.coreB);
+    least = std::min(least, apart.dot(n) - (shape.radiusA + shape.radiusB));
+  }
+  return least;
+}
+
 ContactPair pairOf(const KeptContact& contact, double step) {
   ContactPair pair;
   pair.a = contact.a;

@@ -39,5 +39,6 @@ void keep(std::span<const KeptContact> previous, std::span<const Found> found, c
 ContactPair pairOf(const KeptContact& contact, double step);
 
 Vec3 normalOf(const KeptContact& contact, std::span<const Pose> pose);
+double leastGapOf(const KeptContact& contact, std::span<const Pose> pose);  // of its points [m]
 
 }  // namespace physics

@@ -264,7 +264,7 @@ TEST_P(ContactKernelsOf, GiveTheSameBytesInHalvesAndInOne) {
   }
   const auto work = [&](const ContactKernels& kernels, ContactBlock& block,
                         LaneMotion(&moved)[17]) {
-    kernels.prepare(&block, 1, masses, 0.02f);
+    kernels.prepare(&block, 1, masses, FrictionAt{0.02f});
     kernels.warmStart(&block, 1, moved);
     kernels.sweepPositions(&block, 1, moved, {.push = 0.01f});
     for (int k = 0; k < 3; ++k) {
