@@ -91,6 +91,7 @@ bool SmallSteps::Impl::findTurned(const Model& w, Batch& batch) const {
       some = true;
     }
   }
+  batch.turned[0] = 0;  // what does not move
   return some;
 }
 
