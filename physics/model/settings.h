@@ -31,7 +31,7 @@ enum class Regularisation {
 
 struct ContactSettings {
   Friction friction;
-  double restitution = 0;         // 0..1
+  double restitution = 0;  // 0..1
   // m/s: overlap that exists is resolved no faster, than what a fall of 5 cm ends with; not (52)'s.
   double maxSeparationSpeed = 1;
   double margin = 0.02;  // m: gaps below are watched at rest; a fall takes four frames for it

@@ -254,25 +254,32 @@ TEST(Accuracy, OfARowOfWindowsIsKept) {
   }
 }
 
-// Heights between impacts, against parabolas: v^2/(2 g) e^2 of the one before.
-TEST(Accuracy, OfABouncingBallIsThatOfItsParabolas) {
-  constexpr double e = 0.8, drop = 1;
-  Settings settings = asking(1e-5);
+// A floor for what is added.
+World onFloor(std::optional<double> accuracy, double friction = 0, double restitution = 0) {
+  Settings settings = asking(accuracy);
   settings.contact = ContactSettings{};
-  settings.contact->restitution = e;
+  settings.contact->friction = {friction, friction};
+  settings.contact->restitution = restitution;
   World world(settings);
   BodyDef floor;
   floor.motion = Motion::kStatic;
   floor.shape = Plane{};
   world.add(floor);
+  return world;
+}
+
+// Heights between impacts, against parabolas: v^2/(2 g) e^2 of the one before.
+TEST(Accuracy, OfABouncingBallIsThatOfItsParabolas) {
+  constexpr double e = 0.8, drop = 1;
+  World world = onFloor(1e-5, 0, e);
   BodyDef ball;
   ball.shape = Sphere{0.1};
   ball.pose.x = Vec3(0, 0.1 + drop, 0);
   const BodyId body = world.add(ball);
   double speed = std::sqrt(2 * kGravity * drop), hit = speed / kGravity, start = -hit;
-  for (int k = 1; k * settings.dt < 3; ++k) {
+  for (int k = 1; k * Settings{}.dt < 3; ++k) {
     world.step();
-    const double t = k * settings.dt;
+    const double t = k * Settings{}.dt;
     for (; t > hit; hit += 2 * speed / kGravity) start = hit, speed *= e;
     const double flown = t - start, height = (speed - 0.5 * kGravity * flown) * flown;
     EXPECT_NEAR(world.bodies().pose[body].x.y() - 0.1, height, 1e-5) << t;
@@ -282,14 +289,7 @@ TEST(Accuracy, OfABouncingBallIsThatOfItsParabolas) {
 // A box slides to a stop: v^2/(2 nu g) far, the default being off by v h/2.
 TEST(Accuracy, FindsWhereSlidingEnds) {
   const auto slide = [](std::optional<double> accuracy) {
-    Settings settings = asking(accuracy);
-    settings.contact = ContactSettings{};
-    settings.contact->friction = {0.4, 0.4};
-    World world(settings);
-    BodyDef floor;
-    floor.motion = Motion::kStatic;
-    floor.shape = Plane{};
-    world.add(floor);
+    World world = onFloor(accuracy, 0.4);
     BodyDef box;
     box.shape = Box{Vec3(0.6, 0.2, 0.6)};
     box.pose.x = Vec3(0, 0.1, 0);
@@ -308,14 +308,7 @@ TEST(Accuracy, FindsWhereSlidingEnds) {
 // 10 m/s would lose some 1e-4 m/s of its own in half a second.
 TEST(Accuracy, KeepsTheMomentumOfWhatSlidesFast) {
   constexpr double nu = 0.3, push = 2, mass = 1.7, seconds = 0.5;
-  Settings settings = asking(1e-4);
-  settings.contact = ContactSettings{};
-  settings.contact->friction = {nu, nu};
-  World world(settings);
-  BodyDef floor;
-  floor.motion = Motion::kStatic;
-  floor.shape = Plane{};
-  world.add(floor);
+  World world = onFloor(1e-4, nu);
   BodyDef box;
   box.shape = Box{Vec3(0.6, 0.02, 0.6)};
   box.mass = mass;
@@ -400,18 +393,6 @@ TEST(Accuracy, RemembersWhichStepsFail) {
   EXPECT_LT(report.rejected, report.accepted / 5);
 }
 
-World onFloor(double accuracy, double friction = 0) {
-  Settings settings = asking(accuracy);
-  settings.contact = ContactSettings{};
-  settings.contact->friction = {friction, friction};
-  World world(settings);
-  BodyDef floor;
-  floor.motion = Motion::kStatic;
-  floor.shape = Plane{};
-  world.add(floor);
-  return world;
-}
-
 // It does not hop on from step to step, as it would where its contact gave way by h^2 and the
 // tableau took that for motion.
 TEST(Accuracy, OfWhatLandsIsThatItRests) {
@@ -485,13 +466,7 @@ TEST(Accuracy, OfAHeapIsNotChased) {
 // What rests is left as the default leaves it.
 TEST(Accuracy, LeavesAStackAlone) {
   const auto stack = [](std::optional<double> accuracy) {
-    Settings settings = asking(accuracy);
-    settings.contact = ContactSettings{};
-    World world(settings);
-    BodyDef floor;
-    floor.motion = Motion::kStatic;
-    floor.shape = Plane{};
-    world.add(floor);
+    World world = onFloor(accuracy, Friction{}.staticCoefficient);
     for (int i = 0; i < 5; ++i) {
       BodyDef box;
       box.shape = Box{Vec3(0.2, 0.2, 0.2)};
