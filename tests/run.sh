@@ -17,6 +17,7 @@ if [ "${1:-}" = --sanitize ]; then
   sanitize=yes
   folder=$root/build-sanitize
   options+=(-DSANITIZE=ON -DDBD_BENCHMARKS=OFF)
+  export CXX=${CXX:-g++}  # its sanitizers come with it
   # Mesa and fontconfig keep what they allocate; overlapping scopes of the stack are looked at too.
   export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0:detect_stack_use_after_return=1}
   export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}

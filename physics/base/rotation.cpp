@@ -114,13 +114,29 @@ Vec3 logarithm(const Quat& q) {
   return (2 * arcTangent(sine, w) / sine) * v;
 }
 
-// Here alone: Eigen instantiates a singular value decomposition for it, seconds to compile.
-Quat turnBetween(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
-
 Vec3 anyNormalTo(const Vec3& n) {
   int smallest = 0;
   n.cwiseAbs().minCoeff(&smallest);
   return n.cross(Vec3::Unit(smallest)).normalized();
+}
+
+// Eigen's own instantiates a singular value decomposition for opposite vectors.
+Quat turnBetween(const Vec3& from, const Vec3& to) {
+  constexpr double kOpposite = 1e-12;  // half the cosine's angle is then known from no cosine
+  const Vec3 a = from.normalized(), b = to.normalized();
+  const Vec3 cross = a.cross(b);
+  const double cosine = b.dot(a);
+  Quat turn;
+  if (cosine < -1 + kOpposite) {
+    const Vec3 axis = cross.isZero(0) ? anyNormalTo(a) : Vec3(cross.normalized());
+    turn.w() = 0.5 * (a + b).norm();
+    turn.vec() = std::sqrt(1 - turn.w() * turn.w()) * axis;
+  } else {
+    const double twice = std::sqrt((1 + cosine) * 2);
+    turn.w() = twice * 0.5;
+    turn.vec() = cross * (1 / twice);
+  }
+  return turn;
 }
 
 AngleBetween angleBetween(const Vec3& ni, const Vec3& nj) {

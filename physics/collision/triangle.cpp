@@ -132,7 +132,8 @@ double touchAbout(const Solid& a, const Triangle& t, const Relative& pose, doubl
   if (side.separation - a.rounding > reach)
     return contacts.n = side.n, side.separation - a.rounding;
   const double tolerance = kFlat * smallerSize(a, t.solid);
-  if (std::max(side.separation, face.separation) > 0) {
+  // Of what is round no list of directions is all.
+  if (a.kind == Kind::cylinder || std::max(side.separation, face.separation) > 0) {
     takeNearest(a, t, pose, tolerance, side, contacts);
   }
   const double distance = std::max(side.separation, face.separation) - a.rounding;
@@ -144,7 +145,9 @@ double touchAbout(const Solid& a, const Triangle& t, const Relative& pose, doubl
     const bool isInFront = isFace || t.normal.dot(pose.t) > -0.5 * a.thickness;
     contacts.count = 0;
     if (isInFront) touchSide(a, t, pose, face, contacts);
-    return distance;
+    // Over an edge that is all but flat a point may be beside the faces of both.
+    const bool isBeside = contacts.count == 0 && isFace && side.separation > 0;
+    if (!isBeside || !owns(t, side.n)) return distance;
   }
   touchSide(a, t, pose, side, contacts);
   return distance;

@@ -1,7 +1,9 @@
 // The table of kinds, in the order they are swept. A new constraint is its file and its line here.
 #pragma once
 
+#include <cstddef>
 #include <tuple>
+#include <utility>
 
 #include "physics/constraints/axle.h"
 #include "physics/constraints/ball_socket.h"
@@ -67,13 +69,19 @@ using Kinds = std::tuple<                       //
     Kind<PointOnLineDef, PointOnLine>,          //
     Kind<BallSocketDef, BallSocket>>;           //
 
+// Calls f with each of them. By index: std::apply asks of each f if it throws, a tenth of a file's
+// time to compile.
+template <class K, class F, std::size_t... kIndex>
+void forEachKind(K& kinds, F& f, std::index_sequence<kIndex...>) {
+  (f(std::get<kIndex>(kinds)), ...);
+}
 template <class F>
 void forEachKind(Kinds& kinds, F&& f) {
-  std::apply([&](auto&... kind) { (f(kind), ...); }, kinds);
+  forEachKind(kinds, f, std::make_index_sequence<std::tuple_size_v<Kinds>>());
 }
 template <class F>
 void forEachKind(const Kinds& kinds, F&& f) {
-  std::apply([&](const auto&... kind) { (f(kind), ...); }, kinds);
+  forEachKind(kinds, f, std::make_index_sequence<std::tuple_size_v<Kinds>>());
 }
 
 }  // namespace physics

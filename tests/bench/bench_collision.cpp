@@ -43,8 +43,8 @@ Scene heap(int side) {
   for (int i = 0; i < side * side * side; ++i) {
     const Vec3 cell(i % side, i / side % side, i / side / side);
     Pose pose;
-    pose.x = cell + Vec3(number(random), number(random) + 0.6, number(random)) * 0.1;
-    pose.q = Quat(1, number(random), number(random), number(random)).normalized();
+    pose.x = cell + Vec3{number(random), number(random) + 0.6, number(random)} * 0.1;
+    pose.q = Quat{1, number(random), number(random), number(random)}.normalized();
     scene.add(Box{Vec3(0.9, 0.8, 1)}, pose, true);
   }
   return scene;
@@ -62,7 +62,7 @@ void find(benchmark::State& state, Scene scene, double shake) {
   std::vector<Pose> there = scene.poses;
   std::mt19937 random(2);
   for (std::size_t i = 2; i < there.size(); ++i) {
-    there[i].x += shake * Vec3(number(random), number(random), number(random));
+    there[i].x += shake * Vec3{number(random), number(random), number(random)};
   }
   bool back = false;
   std::size_t manifolds = 0;

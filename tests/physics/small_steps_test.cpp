@@ -252,7 +252,7 @@ TEST_P(ContactKernelsOf, GiveTheSameBytesInHalvesAndInOne) {
   for (int l = 0; l < 8; ++l) {
     start.bodyA[l] = 1 + 2 * l;
     start.bodyB[l] = l == 3 ? 0 : 2 + 2 * l;
-    const Vec3 n = Vec3(next(), next(), next()).normalized();
+    const Vec3 n = Vec3{next(), next(), next()}.normalized();
     for (int k = 0; k < 3; ++k) start.n[k][l] = static_cast<float>(n[k]);
     start.scale[l] = 0.9f, start.rate[l] = 0.2f;
     start.staticFriction[l] = 0.6f, start.dynamicFriction[l] = 0.5f;
@@ -311,7 +311,7 @@ TEST(SmallSteps, BoxesThatFallOnAHeapHardlyOverlap) {
     BodyDef def;
     def.shape = Box{Vec3(1, 1, 1)};
     def.pose.x = 1.75 * Vec3(k % 5 - 2, k / 25 + 0.6, k / 5 % 5 - 2);
-    def.pose.q = exponential(2 * Vec3(number(), number(), number()));
+    def.pose.q = exponential(2 * Vec3{number(), number(), number()});
     def.friction = Friction{0.6, 0.6};
     world.add(def);
   }

@@ -58,7 +58,8 @@ TEST(Gate, FailsWhenASmallBodyIsMissing) {
   small.size = Vec3f::Constant(0.12f);
   small.position = {0.4f, 1.4f, 1};
   with.instances.push_back(small);
-  const Comparison result = compareImages(goldenRenderer().draw(with), golden());
+  const Image& want = golden();
+  const Comparison result = compareImages(goldenRenderer().draw(with), want);
   EXPECT_FALSE(result.passed);
   EXPECT_LT(result.visible, 200u);  // it is small
 }

@@ -122,16 +122,32 @@ double Random::number(double low, double high) {
   return low + (high - low) * (static_cast<double>(engine()) / 4294967296.0);
 }
 
+Vec3 Random::vector(double low, double high) {
+  Vec3 v;
+  for (double& component : v) component = number(low, high);
+  return v;
+}
+
 Vec3 Random::direction() {
   while (true) {
-    const Vec3 d(number(-1, 1), number(-1, 1), number(-1, 1));
+    const Vec3 d = vector(-1, 1);
     if (d.norm() > 0.1 && d.norm() < 1) return d.normalized();
   }
+}
+
+Vec3 Random::within(double furthest) {
+  const double distance = furthest * number(0, 1);
+  return distance * direction();
 }
 
 Quat Random::rotation() {
   const double angle = number(0, 3.14);
   return Quat(Eigen::AngleAxisd(angle, direction()));
+}
+
+Quat Random::lean(double low, double high) {
+  const double degrees = number(low, high);
+  return turned(direction(), degrees);
 }
 
 Quat turned(const Vec3& axis, double degrees) {

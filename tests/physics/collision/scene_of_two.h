@@ -40,13 +40,17 @@ Vec3 supportOf(const Shape& shape, const Pose& pose, const Vec3& d);
 double separation(const Shape& a, const Pose& poseA, const Shape& b, const Pose& poseB,
                   const Vec3& n);
 
+// Nothing of it may stand twice among a function's arguments: compilers differ in their order.
 struct Random {
   explicit Random(unsigned seed) : engine(seed) {}
   std::mt19937 engine;
   double number(double low, double high);  // the same on every machine
+  Vec3 vector(double low, double high);         // each component so
   Vec3 direction();
+  Vec3 within(double furthest);
   Quat rotation();
-  Pose pose(double furthest) { return {furthest * number(0, 1) * direction(), rotation()}; }
+  Quat lean(double low, double high);  // about any axis [degrees]
+  Pose pose(double furthest) { return {within(furthest), rotation()}; }
 };
 
 long allocationCount();  // of the whole program so far

@@ -18,8 +18,8 @@ Convex asHull(const Box& box) { return {std::make_shared<const Hull>(boxHull(0.5
 
 // Turned at random, or nearly upright, as in a pile.
 Pose nearby(Random& random, bool upright) {
-  Pose pose{1.2 * random.number(0, 1) * random.direction(), random.rotation()};
-  if (upright) pose.q = turned(random.direction(), random.number(0, 2));
+  Pose pose = random.pose(1.2);
+  if (upright) pose.q = random.lean(0, 2);
   return pose;
 }
 

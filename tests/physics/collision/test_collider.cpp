@@ -195,9 +195,9 @@ TEST(Collider, FacesOfBoxesThatTurnMeetWithAllOfTheirCorners) {
   Random random(3);
   int edgesWhenStill = 0;
   for (int i = 0; i < 300; ++i) {
-    Pose upper{Vec3(random.number(-0.3, 0.3), 0.97, random.number(-0.3, 0.3)), Quat::Identity()};
+    Pose upper{Vec3{random.number(-0.3, 0.3), 0.97, random.number(-0.3, 0.3)}, Quat::Identity()};
     const Quat twist = turned(Vec3::UnitY(), random.number(20, 70));
-    upper.q = turned(random.direction(), random.number(1, 4)) * twist;
+    upper.q = random.lean(1, 4) * twist;
     Collider collider;
     collider.add(1, Box{Vec3(1, 1, 1)}, true);
     collider.add(2, Box{Vec3(1, 1, 1)}, false);

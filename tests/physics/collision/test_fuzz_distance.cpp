@@ -88,7 +88,8 @@ class FuzzDistance : public ::testing::TestWithParam<Two> {
     const Quat quarter = turned(Vec3::Unit(static_cast<int>(random.number(0, 3))),
                                 90 * std::floor(random.number(0, 4)));
     if (kind == 1) return quarter;
-    return turned(random.direction(), std::pow(10, random.number(-9, 0))) * quarter;
+    const double degrees = std::pow(10, random.number(-9, 0));
+    return turned(random.direction(), degrees) * quarter;
   }
 
   // a against b, which stands at a place of its own.
@@ -98,7 +99,7 @@ class FuzzDistance : public ::testing::TestWithParam<Two> {
     const double reach = 0.5 * (two().a.most + two().b.most);
     if (index % 5 == 4) return {a, b};  // coincident
     const double depth = index % 5 == 3 ? 0.1 : 1;
-    a.x += depth * reach * random.number(0, 1.2) * random.direction();
+    a.x += random.within(depth * reach * 1.2);
     if (index % 5 > 1) return {a, b};
     const Bounds at = truth(a, b);  // moved along the normal, near touching
     const double gap = index % 5 == 0 ? std::pow(10, random.number(-12, -1)) * smaller() : 0;

@@ -63,7 +63,7 @@ TEST(TriangleCollision, AFlatMeshIsThePlaneItLiesIn) {
   Random random(7);
   for (const Shape& shape : solids()) {
     for (int i = 0; i < 300; ++i) {
-      Pose pose{Vec3(random.number(-2, 2), 0, random.number(-2, 2)), random.rotation()};
+      Pose pose{Vec3{random.number(-2, 2), 0, random.number(-2, 2)}, random.rotation()};
       if (i % 3 == 0) pose.q = turned(Vec3(0, 1, 0), random.number(0, 90));
       if (i % 6 == 0) pose.x.x() = std::round(pose.x.x());  // just over an edge
       const double low = supportOf(shape, pose, Vec3(0, -1, 0)).y();
@@ -126,8 +126,8 @@ TEST(TriangleCollision, NothingPassesThroughAtAnySpeed) {
       collider.add(1, shape, true);
       collider.add(2, ground, false);
       std::vector<Pose> start(3), end(3);
-      start[1] = {Vec3(random.number(-2, 2), 2.5, random.number(-2, 2)), random.rotation()};
-      end[1] = {Vec3(random.number(-2, 2), -random.number(1.5, 40), random.number(-2, 2)),
+      start[1] = {Vec3{random.number(-2, 2), 2.5, random.number(-2, 2)}, random.rotation()};
+      end[1] = {Vec3{random.number(-2, 2), -random.number(1.5, 40), random.number(-2, 2)},
                 start[1].q};
       const auto found = collider.find(start, end, 0.01);
       ASSERT_GE(found.size(), 1u) << shape.index() << " " << i;
