@@ -127,12 +127,13 @@ class JointPack {
  private:
   struct State {  // of a row that its kind evaluates, by lane
     std::array<JointRow::Role, W> role{};
-    std::array<bool, W> active{};
+    std::array<bool, W> active{}, hasStart{};  // its J is the start's
   };
   JointView<W> view();
   void place(bool back);
   void restorePoses(const JointStage& stage) const;
-  void seeOthers(const JointStage& stage, bool all);
+  void seeOthers(const JointStage& stage, bool all, bool inPositions);
+  void seeWays(const JointStage& stage);
   void openAll();
   void solveOpenVelocities();
   void solveOpenVelocities(const JointStage& stage);

@@ -93,6 +93,7 @@ class Deformable {
   bool isClosed(std::span<const Displacement> moved) const;
   void solveVelocities(std::span<Displacement> moved);
   void factorize(bool positions);
+  void solveFactor();
   template <class F>
   void emit(bool positions, F&& entry);
   double errorNow(const SoftRow& row, bool positions, std::span<const Displacement> moved) const;
@@ -104,6 +105,7 @@ class Deformable {
   std::vector<int> unknown_;            // by place in bodies_: the first of its 3 or 6
   std::vector<bool> turns_;             // by place: it has 6
   int unknowns_ = 0;                    // of bodies
+  bool repeats_ = false;                // rows are more than bodies can move against each other
   std::vector<Mat3> inertia_;           // by place
   std::vector<double> mass_;
   std::vector<Displacement> from_;             // by place: u_0

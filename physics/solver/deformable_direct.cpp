@@ -93,7 +93,8 @@ void Deformable::aimAtPositions(std::span<const Displacement> moved) {
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if (swept.swept && !swept.held) {
       f.right.template segment<C::kRows>(at) =
-          kRedundancy * swept.own * swept.lambda - swept.constant - along(item, swept, moved);
+          (repeats_ ? 0 : kRedundancy) * swept.own * swept.lambda - swept.constant -
+          along(item, swept, moved);
     } else if (swept.swept && !swept.next.isZero(0)) {
       for (std::size_t b = 0; b < item.bodies.size(); ++b) {
         const int place = placeOf(item.bodies[b]);
@@ -223,6 +224,14 @@ void Deformable::takePositions(double share, std::span<Displacement> moved) {
   }
 }
 
+// Of rows that repeat each other what they share grows to 1/kRedundancy of what they disagree by,
+// and its rounding would move all of the bodies.
+void Deformable::solveFactor() {
+  MeshFactor& f = *factor_;
+  f.factor.solve(f.right, f.solution);
+  if (repeats_) f.factor.refine(f.right, f.solution);
+}
+
 // Which rows are at a bound, and what solves the others.
 void Deformable::solveProgram(bool first, std::span<const Displacement> moved) {
   MeshFactor& f = *factor_;
@@ -230,7 +239,7 @@ void Deformable::solveProgram(bool first, std::span<const Displacement> moved) {
   for (int round = 1;; ++round) {
     if (f.stale) factorize(true);
     aimAtPositions(moved);
-    f.factor.solve(f.right, f.solution);
+    solveFactor();
     if (!chooseAgain(moved) || round == kMostRounds) return;
   }
 }
@@ -277,7 +286,7 @@ void Deformable::solveVelocities(std::span<Displacement> moved) {
     for (const SoftRow* row : contacts_) {
       f.right[at++] = row->held ? 0 : -errorNow(*row, positions, moved);
     }
-    f.factor.solve(f.right, f.solution);
+    solveFactor();
     if (round == kMostRounds || !holdAtBounds(moved)) break;
   }
   for (std::size_t k = 0; k < bodies_.size(); ++k) {

@@ -161,6 +161,11 @@ void Deformable::factorize(bool positions) {
     f.entries.clear();
     emit(positions, [&](int row, int column, double) { f.entries.push_back({row, column}); });
     f.factor.layOut(f.entries);
+    int rows = 0;
+    forEachRow(rows_, *kinds_, [&]<class C>(const C&, const SweptRow<C>&, double) {
+      if constexpr (!Force<C>) rows += C::kRows;
+    });
+    repeats_ = rows > unknowns_ - 6;
     f.right.resize(f.factor.size());
   }
   f.factor.begin();

@@ -57,6 +57,7 @@ struct JointShape {
   bool hasWay = false;  // its error is in m, else in rad
   bool isGap = false, hasLinear = false, hasAngular = false;
   bool stands = true;  // what it wants is a place, not a speed
+  bool isWay = false;  // a force along a way, as a spring's
 };
 // Each file that includes this has its own.
 static constexpr bool isLimit(const JointShape& shape) {

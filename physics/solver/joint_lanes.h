@@ -92,18 +92,22 @@ void scatterPoses(std::span<const BodyId> ids, int lanes, const std::vector<bool
 }
 
 template <int W>
-void takeRow(const JointShape& shape, int l, const JointRow& from, JointLanes<W>& row) {
+void takeGradients(const JointShape& shape, int l, const JointRow& from, JointLanes<W>& row) {
+  for (int b = 0; b < shape.bodyCount; ++b) {
+    if (shape.hasLinear) writeRows(row.linear[b], l, from.linear[b], shape.rows);
+    if (shape.hasAngular) writeRows(row.angular[b], l, from.angular[b], shape.rows);
+    if (shape.pulls) write(row.arm[b], l, from.arm[b]);
+  }
+}
+
+template <int W>
+void takeError(int l, const JointRow& from, JointLanes<W>& row) {
   write(row.c, l, from.c);
   row.low.v[l] = from.low;
   row.high.v[l] = from.high;
   row.longest.v[l] = from.longest;
   for (int r = 0, k = 0; r < 3; ++r) {
     for (int c = 0; c <= r; ++c) row.alpha[k++].v[l] = from.alpha(r, c);
-  }
-  for (int b = 0; b < shape.bodyCount; ++b) {
-    if (shape.hasLinear) writeRows(row.linear[b], l, from.linear[b], shape.rows);
-    if (shape.hasAngular) writeRows(row.angular[b], l, from.angular[b], shape.rows);
-    if (shape.pulls) write(row.arm[b], l, from.arm[b]);
   }
 }
 

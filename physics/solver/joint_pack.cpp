@@ -147,7 +147,7 @@ void JointPack<W>::stiffen(std::span<Mat3> stiffness) const {
 
 // `all`: also those that are held, which say whether they are free.
 template <int W>
-void JointPack<W>::seeOthers(const JointStage& stage, bool all) {
+void JointPack<W>::seeOthers(const JointStage& stage, bool all, bool inPositions) {
   JointRow row;
   for (const int i : topology_->others) {
     for (int l = 0; l < lanes_; ++l) {
@@ -156,7 +156,25 @@ void JointPack<W>::seeOthers(const JointStage& stage, bool all) {
       states_[i].active[l] = row.active;
       if (!row.active) continue;
       states_[i].role[l] = row.role;
-      takeRow(topology_->shapes[i], l, row, rows_[i]);
+      takeError(l, row, rows_[i]);
+      const bool keepsWay = inPositions && states_[i].hasStart[l];
+      if (!keepsWay) takeGradients(topology_->shapes[i], l, row, rows_[i]);
+    }
+  }
+}
+
+// Of a position stage: a force pulls along the way that the substep begins with. With v = u / h it
+// gives no angular momentum then,
+//   sum x_1 x m v = sum (x_0 + u) x m u / h = sum x_0 x (h m v_0 + J_0^T lambda) / h
+template <int W>
+void JointPack<W>::seeWays(const JointStage& stage) {
+  JointRow row;
+  for (const int i : topology_->others) {
+    if (!topology_->shapes[i].isWay) continue;
+    for (int l = 0; l < lanes_; ++l) {
+      evaluateRow(stage.kinds, of_[l]->refs_[i], {stage.pose, stage.start, stage.h}, row);
+      states_[i].hasStart[l] = row.active;
+      if (row.active) takeGradients(topology_->shapes[i], l, row, rows_[i]);
     }
   }
 }
@@ -182,7 +200,7 @@ void JointPack<W>::leave(const JointStage& stage, double most) {
   gatherPoses<W>(ids_, stage.pose, bodies_);
   jointKernels<W>().seeGaps(view(), false);
   jointKernels<W>().seeLimits(view(), true);
-  seeOthers(stage, true);
+  seeOthers(stage, true, false);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const bool isGap = topology_->shapes[i].isGap;
     const bool isKernels = topology_->shapes[i].seen != JointSeen::kByKind;
@@ -344,8 +362,9 @@ void JointPack<W>::see(const JointStage& stage, bool first) {
   place(first && !stage.spin.empty());
   kernels.seeLimits(view(), first);
   if (topology_->others.empty()) return;
+  if (first) seeWays(stage);
   scatterPoses<W>(ids_, lanes_, topology_->moves, bodies_, stage.pose);
-  seeOthers(stage, first);
+  seeOthers(stage, first, true);
   restorePoses(stage);
 }
 
@@ -613,7 +632,7 @@ void JointPack<W>::prepareVelocities(const JointStage& stage) {
   gatherMasses<W>(ids_, stage.masses, bodies_);
   kernels.seeGaps(view(), false);
   kernels.seeLimits(view(), false);
-  seeOthers(stage, false);
+  seeOthers(stage, false, false);
   bool changed[W];
   kernels.findChanged(view(), changed);
   // Where rows repeat each other, what they share is another thing after the smallest turn; and of

@@ -112,6 +112,7 @@ JointKind describe(const K& kind, int index) {
     result.hasLinear = C::kLinear && result.seen != JointSeen::kGap;
     result.hasAngular = isAngular<C>();
     result.pulls = requires { item.anchors; };
+    result.isForce = Force<C>;
     result.stands = Force<C> || canStand<C>();
     result.regularisation = Force<C> ? 0 : kind.set.tuned[index].regularisation;
     for (int b = 0; b < C::kBodies; ++b) {

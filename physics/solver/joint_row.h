@@ -38,6 +38,7 @@ struct JointKind {
   std::array<double, kJointFixed> fixed{};  // of what the kernels evaluate
   bool hasLinear = false, hasAngular = false;
   bool pulls = false;  // it has anchors, and so geometric stiffness
+  bool isForce = false;
   bool stands = true;  // what it wants is a place, not a speed: a motor wants a speed
   double regularisation = 0;
 };

@@ -32,6 +32,7 @@ JointShape shapeOf(const JointKind& kind, std::span<const BodyId> bodies,
   shape.isGap = kind.seen == JointSeen::kGap;
   shape.hasLinear = kind.hasLinear;
   shape.hasAngular = kind.hasAngular;
+  shape.isWay = kind.isForce && kind.hasLinear;
   for (int b = 0; b < kind.bodyCount; ++b) {
     const auto found = std::lower_bound(bodies.begin(), bodies.end(), kind.bodies[b]);
     shape.body[b] = static_cast<int>(found - bodies.begin());

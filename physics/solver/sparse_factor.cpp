@@ -125,8 +125,8 @@ void SparseFactor::factorize() {
   }
 }
 
-void SparseFactor::solve(const Eigen::VectorXd& right, Eigen::VectorXd& solution) {
-  for (int i = 0; i < size(); ++i) row_[order_[i]] = right[i];
+// By the factor, where it stands in row_.
+void SparseFactor::substitute() {
   for (int k = 0; k < size(); ++k) {
     for (int p = starts_[k]; p < starts_[k + 1]; ++p) row_[below_[p]] -= row_[k] * lower_[p];
   }
@@ -134,8 +134,36 @@ void SparseFactor::solve(const Eigen::VectorXd& right, Eigen::VectorXd& solution
   for (int k = size(); k-- > 0;) {
     for (int p = starts_[k]; p < starts_[k + 1]; ++p) row_[k] -= lower_[p] * row_[below_[p]];
   }
+}
+
+// What `solved_` leaves of the right-hand side in row_.
+void SparseFactor::subtractProduct() {
+  for (int k = 0; k < size(); ++k) {
+    for (int p = columnStarts_[k]; p < columnStarts_[k + 1]; ++p) {
+      const int i = rows_[p];
+      row_[i] -= values_[p] * solved_[k];
+      if (i != k) row_[k] -= values_[p] * solved_[i];
+    }
+  }
+}
+
+void SparseFactor::solve(const Eigen::VectorXd& right, Eigen::VectorXd& solution) {
+  for (int i = 0; i < size(); ++i) row_[order_[i]] = right[i];
+  substitute();
   solution.resize(size());
   for (int i = 0; i < size(); ++i) solution[i] = row_[order_[i]];
+  std::fill(row_.begin(), row_.end(), 0.0);
+}
+
+void SparseFactor::refine(const Eigen::VectorXd& right, Eigen::VectorXd& solution) {
+  solved_.resize(order_.size());
+  for (int i = 0; i < size(); ++i) {
+    row_[order_[i]] = right[i];
+    solved_[order_[i]] = solution[i];
+  }
+  subtractProduct();
+  substitute();
+  for (int i = 0; i < size(); ++i) solution[i] += row_[order_[i]];
   std::fill(row_.begin(), row_.end(), 0.0);
 }
 

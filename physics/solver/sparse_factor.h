@@ -25,10 +25,13 @@ class SparseFactor {
   void give(double value) { values_[slots_[next_++]] += value; }
   void factorize();  // a zero pivot moves nothing
   void solve(const Eigen::VectorXd& right, Eigen::VectorXd& solution);
+  void refine(const Eigen::VectorXd& right, Eigen::VectorXd& solution);  // by what it leaves
 
  private:
   void findColumns();
   int reach(int k);
+  void substitute();
+  void subtractProduct();
 
   std::vector<int> order_;  // place of each row in the order of elimination
   // Columns of the upper triangle in that order, and where each entry given goes.
@@ -40,6 +43,7 @@ class SparseFactor {
   std::vector<int> below_;
   std::vector<double> lower_, diagonal_;
   std::vector<double> row_;  // scratch: zero but within a row of factorize
+  std::vector<double> solved_;
   std::vector<int> reached_, seenBy_;
 };
 

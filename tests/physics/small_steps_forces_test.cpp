@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/world.h"
+#include "physics/world/measure.h"
 #include "tests/physics/stage.h"
 
 namespace physics::testing {
@@ -51,6 +52,24 @@ TEST_P(Substeps, ADriveHoldsABarUnderItsWeightWhereStaticsSays) {
   DrivenBar it(settings, 10);
   run(it.world, 600);
   it.expectRest(98.1);
+}
+
+// Three balls in a row, on a soft and a stiff spring, and pushed across.
+TEST_P(Substeps, SpringsGiveNoAngularMomentum) {
+  World world(settings());
+  std::vector<BodyId> balls;
+  for (int k = 0; k < 3; ++k) balls.push_back(addBody(world, Sphere{0.1}, Vec3(k, 0, 0), 1 + k));
+  for (int k = 0; k < 2; ++k) {
+    SpringDef spring;
+    spring.bodies = {balls[k], balls[k + 1]};
+    spring.stiffness = k == 0 ? 50 : 1e8;
+    world.add(spring);
+  }
+  world.setVelocity(balls[0], {Vec3(0, 3, 1), Vec3::Zero()});
+  world.setVelocity(balls[2], {Vec3(0.5, -1, 0), Vec3::Zero()});
+  const Vec3 before = measure(world).angularMomentum;
+  run(world, 600);
+  EXPECT_LT((measure(world).angularMomentum - before).norm(), 1e-12 * before.norm());
 }
 
 TEST_P(Substeps, ADriveHoldsABarUnderAForceWhereStaticsSays) {

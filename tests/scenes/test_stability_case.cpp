@@ -60,15 +60,15 @@ StabilityFamily familyOf(const std::string& name) {
 }
 
 TEST(StabilityCase, HasTheSettingsOfItsFamily) {
-  const StabilityFamily family = familyOf("direct");
+  const StabilityFamily family = familyOf("swept");
   const Value* substeps = findValue(family.settings, "simulation.substeps");
   ASSERT_NE(substeps, nullptr);
   const Value* sweeps = findValue(family.settings, "simulation.iterations");
   ASSERT_NE(sweeps, nullptr);
   const Scene scene =
-      caseSceneOf("duration = 1\n[stability]\nfamily = \"direct\"\nabout = \"a\"\n" + kBody);
+      caseSceneOf("duration = 1\n[stability]\nfamily = \"swept\"\nabout = \"a\"\n" + kBody);
   EXPECT_EQ(scene.settings.substeps, substeps->integer);
-  EXPECT_EQ(scene.settings.method, physics::Method::kDirect);
+  EXPECT_EQ(scene.settings.method, physics::Method::kNonlinearGaussSeidel);
   EXPECT_EQ(scene.settings.iterations, sweeps->integer);
 }
 

@@ -104,6 +104,20 @@ TEST(TriangleCollision, ABallOnARidgeIsPushedFromTheEdge) {
   EXPECT_NEAR((found[0].normal - Vec3(0.05, 0.29, 0).normalized()).norm(), 0, 1e-9);
 }
 
+// Beside the faces of both, where their normals are less than the tolerance of directions apart.
+TEST(TriangleCollision, ABallOverAnEdgeThatIsAllButFlatTouches) {
+  constexpr double kSlope = 0.005;
+  const Triangles ground = field(4, [](double x, double) { return -kSlope * std::abs(x); });
+  for (const double x : {0.0, 0.0005, -0.001, 0.0014}) {
+    const Pose pose{Vec3(x, 0.29, 0.25), Quat::Identity()};
+    ASSERT_LT(std::abs(x), 0.29 * kSlope);
+    const std::vector<Manifold> found = meet(Sphere{0.3}, pose, ground, Pose{}, 0.02);
+    ASSERT_EQ(found.size(), 1u) << x;
+    const std::vector<Pose> poses = {Pose{}, pose, Pose{}};
+    EXPECT_NEAR(smallestGap(found[0], poses), std::hypot(x, 0.29) - 0.3, 1e-9) << x;
+  }
+}
+
 TEST(TriangleCollision, IsSolidBelowAndOpenFromBelow) {
   const Triangles ground = flat(4);
   const auto meets = [&](double y) {
