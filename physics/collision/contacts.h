@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "physics/collision/collider.h"
+#include "physics/collision/feature.h"
 #include "physics/collision/patch.h"
 #include "physics/collision/solid.h"
 
@@ -38,8 +39,6 @@ struct LinePoints {
   Vec3 onA = Vec3::Zero(), onB = Vec3::Zero();
 };
 LinePoints closestPoints(const Line& a, const Line& b);
-
-enum class Owner { a, b };  // whose face is flat: its normal is the contact's
 
 // How far two points lie beside each other, seen along n.
 double offset(const Vec3& n, const Vec3& apart);
@@ -98,14 +97,5 @@ constexpr double kSideTolerance = 1e-4;  // aligned edges do not flicker
 constexpr double kFlat = 5e-4;           // directions this close are one
 constexpr double kDeeper = 1e-3;         // a corner this much deeper is kept
 constexpr double kTie = 1e-4;            // points this close in rank are one
-
-// Feature tags in the two top bits but one; the top bit tells the owner of a facet.
-constexpr std::uint32_t kFacetTag = 0u << 29, kLinesTag = 1u << 29, kPointTag = 2u << 29;
-
-// `id`: of a corner of the patch.
-inline std::uint32_t facetFeature(Owner owner, int index, std::uint32_t id) {
-  return kFacetTag | (owner == Owner::a ? 1u << 31 : 0u) |
-         (static_cast<std::uint32_t>(index) & 0xfff) << 17 | id;
-}
 
 }  // namespace physics::collision

@@ -64,7 +64,7 @@ void take(const Manifold& manifold, const Solid& a, const MeshLook& look, int fa
   if (side.count + manifold.count > Patch::kRoom) thin(a, look.pose, look.reach, side);
   for (int k = 0; k < manifold.count; ++k) {
     const ContactPoint& p = manifold.points[k];
-    const auto feature = p.feature ^ static_cast<std::uint32_t>(face) * 2654435761u;
+    const auto feature = featureOfPart(p.feature, face);
     side.add(look.pose.R * p.coreA + look.pose.t, p.coreB, feature);
   }
 }

@@ -1,6 +1,7 @@
 // Contacts into the lanes that sweep over them, and back.
 #include <algorithm>
 
+#include "physics/collision/feature.h"
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
@@ -171,12 +172,19 @@ void fillLoads(const KeptContact& c, double h, bool stayed, ContactBlock& block,
 }
 
 // From where both bodies are pushed to the surface of a: half of the gap. Of what one surface has
-// slipped along the other nothing, where a is rounder: its point rolls, and b's stays behind; and
-// all of it where b is.
-Vec3 ofGap(const ContactPoint& point, const Vec3& gap, const Vec3& n) {
+// slipped along the other nothing, where the point is a's: where a is rounder it rolls, and b's
+// stays behind; all of it where the point is b's. Where rows are placed within a step as well, so
+// does the place on a face of b that a corner of a slides over; of edges, and elsewhere, it is
+// half.
+Vec3 ofGap(const ContactPoint& point, const Vec3& gap, const Vec3& n, bool isWithin) {
   const Vec3 open = gap.dot(n) * n, slip = gap - open;
-  if (point.radiusA == point.radiusB) return 0.5 * gap;
-  return 0.5 * open + (point.radiusA > point.radiusB ? 0 : 1) * slip;
+  double ofSlip = 0.5;
+  if (point.radiusA != point.radiusB) {
+    ofSlip = point.radiusA > point.radiusB ? 0 : 1;
+  } else if (isWithin && collision::isOfFacet(point.feature)) {
+    ofSlip = collision::facetOwnerOf(point.feature) == collision::Owner::b ? 0 : 1;
+  }
+  return 0.5 * open + ofSlip * slip;
 }
 
 }  // namespace
@@ -192,7 +200,8 @@ void emptyLane(ContactBlock& block, int l) {
 }
 
 // The surfaces at the present poses.
-void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& block, int l) {
+void placeLane(const KeptContact& c, std::span<const Pose> pose, bool isWithin, ContactBlock& block,
+               int l) {
   const Vec3 n = normalOf(c, pose), apart = pose[c.a].x - pose[c.b].x;
   const Mat3 rotationA = pose[c.a].q.toRotationMatrix(), rotationB = pose[c.b].q.toRotationMatrix();
   put(block.n, l, n);
@@ -201,7 +210,7 @@ void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& b
     const ContactPoint& shape = c.points[k];
     const Vec3 onA = rotationA * shape.coreA - shape.radiusA * n;  // from a's centre
     const Vec3 onB = rotationB * shape.coreB + shape.radiusB * n;  // from b's
-    const Vec3 gap = apart + onA - onB, ofA = ofGap(shape, gap, n);
+    const Vec3 gap = apart + onA - onB, ofA = ofGap(shape, gap, n, isWithin);
     put(p.wA, l, onA - ofA);
     put(p.wB, l, onB + gap - ofA);
     block.gap[k][l] = static_cast<float>(gap.dot(n));
@@ -211,8 +220,10 @@ void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& b
 }
 
 // Rows of a block at the present poses, for substeps of h.
-void SmallSteps::Impl::fill(const Model& w, double h, bool takesTurns, ContactBlock& block) const {
+void SmallSteps::Impl::fill(const Model& w, const Batch& batch, double h,
+                            ContactBlock& block) const {
   const Bodies& b = w.bodies;
+  const bool isWithin = stepsAccurately(w, batch);
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (block.contact[l] < 0) {
       emptyLane(block, l);
@@ -226,9 +237,9 @@ void SmallSteps::Impl::fill(const Model& w, double h, bool takesTurns, ContactBl
     block.rate[l] = soft.rate;
     block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
     block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
-    placeLane(c, b.pose, block, l);
+    placeLane(c, b.pose, isWithin, block, l);
     // Of a hit nothing is kept where joints would pass it on.
-    fillLoads(c, h, takesTurns && isJointed(c), block, l);
+    fillLoads(c, h, batch.takesTurns() && isJointed(c), block, l);
   }
 }
 
@@ -246,7 +257,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
   });
   const FrictionAt friction = frictionAt(w, batch);
   forEachRun(w, batch, [&](int from, int to) {
-    for (int i = from; i < to; ++i) fill(w, h, batch.takesTurns(), batch.blocks[i]);
+    for (int i = from; i < to; ++i) fill(w, batch, h, batch.blocks[i]);
     contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), friction);
   });
   noteDeep(w, batch, h);

@@ -106,7 +106,7 @@ void SmallSteps::Impl::renew(const Model& w, const Batch& batch, ContactBlock& b
   ContactBlock fresh = block;
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (lanes >> l & 1) {
-      placeLane(contacts[block.contact[l]], w.bodies.pose, fresh, l);
+      placeLane(contacts[block.contact[l]], w.bodies.pose, stepsAccurately(w, batch), fresh, l);
       keepLoads(block, l, fresh);
     } else {
       emptyLane(fresh, l);

@@ -136,7 +136,9 @@ inline void startRows(LaneMotion& motion) {
 
 // Lane l of a block: nothing; or the surfaces of a contact at these poses, without its loads.
 void emptyLane(ContactBlock& block, int l);
-void placeLane(const KeptContact& c, std::span<const Pose> pose, ContactBlock& block, int l);
+// `isWithin`: a step, not where it starts and the collider has just looked.
+void placeLane(const KeptContact& c, std::span<const Pose> pose, bool isWithin, ContactBlock& block,
+               int l);
 
 // Of an accuracy's step: a force that is constant.
 template <class C>
@@ -362,7 +364,7 @@ struct SmallSteps::Impl {
   bool isJointed(const KeptContact& c) const;
   double smallSag(const Model& w, const KeptContact& c, double size) const;
   Softness softnessOf(const Bodies& b, const KeptContact& c) const;
-  void fill(const Model& w, double h, bool takesTurns, ContactBlock& block) const;
+  void fill(const Model& w, const Batch& batch, double h, ContactBlock& block) const;
   void rows(Model& w, Batch& batch, double h);
   void noteDeep(const Model& w, Batch& batch, double h) const;
   std::vector<SoftPair> softPairs;

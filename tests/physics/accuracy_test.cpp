@@ -324,6 +324,30 @@ TEST(Accuracy, KeepsTheMomentumOfWhatSlidesFast) {
   EXPECT_NEAR(world.bodies().velocity[body].v.x(), speed, 1e-5);
 }
 
+// Corners of a face that slides, each a metre in a frame, touch where they are, and not half way back
+// to where they were: a box pressed to its front edge by friction goes level, and in few steps.
+TEST(Accuracy, OfABoxThatSlidesFastIsThatItStaysDown) {
+  constexpr double nu = 0.6, speed = 60, seconds = 1;
+  for (const double accuracy : {1e-2, 1e-3}) {
+    World world = onFloor(accuracy, nu);
+    BodyDef box;
+    box.shape = Box{Vec3(0.5, 0.25, 0.25)};
+    box.pose = {Vec3(0, 0.125, 0), exponential(Vec3(0, 0.5, 0))};
+    box.velocity.v = Vec3(-speed, 0, 0);
+    const BodyId body = world.add(box);
+    double highest = 0;
+    long steps = 0;
+    for (int k = 0; k * world.settings().dt < seconds - 1e-9; ++k) {
+      const AccuracyReport report = world.step().accuracy;
+      steps += report.accepted + report.rejected;
+      highest = std::max(highest, std::abs(world.bodies().pose[body].x.y() - 0.125));
+    }
+    EXPECT_LT(highest, 1e-5) << accuracy;
+    EXPECT_LT(steps * world.settings().dt, 8 * seconds) << accuracy;
+    EXPECT_NEAR(world.bodies().pose[body].x.x(), -speed + 0.5 * nu * kGravity, 1e-3) << accuracy;
+  }
+}
+
 // Momenta of the rows of a tableau are those of the start, and so is what is linear in them.
 TEST(Accuracy, KeepsTheAngularMomentumOfATumblingBox) {
   Settings settings = asking(1e-2);
