@@ -43,10 +43,11 @@ double StepChoice::next(double left, double time) {
 }
 
 double StepChoice::stepFor(double step, double error, int columns, double allowed) const {
-  constexpr double kNone = 1e-9;  // of what is allowed: smaller errors tell no more
-  const double times = allowed / std::max(error, kNone * allowed);
-  const double change = kSafety * rootOf(times, power_ * (columns - 1) + 1);
-  return step * std::clamp(change, kLeastChange, kMostChange);
+  const int power = power_ * (columns - 1) + 1;
+  double most = 1;  // the error that allows kMostChange, the other way round
+  for (int k = 0; k < power; ++k) most *= kMostChange / kSafety;
+  if (error * most <= allowed) return step * kMostChange;
+  return step * std::max(kSafety * rootOf(allowed / error, power), kLeastChange);
 }
 
 void StepChoice::reject(double step, double error, double allowed) {
