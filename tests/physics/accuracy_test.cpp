@@ -324,8 +324,9 @@ TEST(Accuracy, KeepsTheMomentumOfWhatSlidesFast) {
   EXPECT_NEAR(world.bodies().velocity[body].v.x(), speed, 1e-5);
 }
 
-// Corners of a face that slides, each a metre in a frame, touch where they are, and not half way back
-// to where they were: a box pressed to its front edge by friction goes level, and in few steps.
+// Corners of a face that slides, each a metre in a frame, touch where they are, and not half way
+// back to where they were: a box pressed to its front edge by friction goes level, and in few
+// steps.
 TEST(Accuracy, OfABoxThatSlidesFastIsThatItStaysDown) {
   constexpr double nu = 0.6, speed = 60, seconds = 1;
   for (const double accuracy : {1e-2, 1e-3}) {

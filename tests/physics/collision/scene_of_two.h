@@ -45,7 +45,7 @@ struct Random {
   explicit Random(unsigned seed) : engine(seed) {}
   std::mt19937 engine;
   double number(double low, double high);  // the same on every machine
-  Vec3 vector(double low, double high);         // each component so
+  Vec3 vector(double low, double high);    // each component so
   Vec3 direction();
   Vec3 within(double furthest);
   Quat rotation();
