@@ -122,7 +122,7 @@ Vec3 anyNormalTo(const Vec3& n) {
 
 // Eigen's own instantiates a singular value decomposition for opposite vectors.
 Quat turnBetween(const Vec3& from, const Vec3& to) {
-  constexpr double kOpposite = 1e-12;  // half the cosine's angle is then known from no cosine
+  constexpr double kOpposite = 1e-12;  // of 1 + cosine, 1e4 roundings: less tells of no angle
   const Vec3 a = from.normalized(), b = to.normalized();
   const Vec3 cross = a.cross(b);
   const double cosine = b.dot(a);

@@ -52,7 +52,7 @@ inline Lanes workOf(const ContactBlock& m, const LaneMotion* motions) {
 // by a sixth of its friction.
 inline void takeDisc(const ContactBlock& m, Lanes staticLimit, Lanes dynamicLimit, Lanes& w1,
                      Lanes& w2) {
-  constexpr float kLeast = 1e-6f;  // of w: then the direction is that of -v
+  constexpr float kLeast = 1e-6f;  // of w, some ten roundings: less changes no direction
   const Lanes squared = w1 * w1 + w2 * w2, beyond = squared - staticLimit * staticLimit;
   if (positive(beyond) == 0) return;  // nothing slides
   const Lanes one = all(1), tiny = all(kTiny), perLength = one / root(larger(squared, tiny));

@@ -324,6 +324,15 @@ TEST(Accuracy, KeepsTheMomentumOfWhatSlidesFast) {
   EXPECT_NEAR(world.bodies().velocity[body].v.x(), speed, 1e-5);
 }
 
+// It lies on the floor and slides along x, half a radian askew.
+BodyDef boxAskew(double speed) {
+  BodyDef box;
+  box.shape = Box{Vec3(0.5, 0.25, 0.25)};
+  box.pose = {Vec3(0, 0.125, 0), exponential(Vec3(0, 0.5, 0))};
+  box.velocity.v = Vec3(speed, 0, 0);
+  return box;
+}
+
 // Corners of a face that slides, each a metre in a frame, touch where they are, and not half way
 // back to where they were: a box pressed to its front edge by friction goes level, and in few
 // steps.
@@ -331,11 +340,7 @@ TEST(Accuracy, OfABoxThatSlidesFastIsThatItStaysDown) {
   constexpr double nu = 0.6, speed = 60, seconds = 1;
   for (const double accuracy : {1e-2, 1e-3}) {
     World world = onFloor(accuracy, nu);
-    BodyDef box;
-    box.shape = Box{Vec3(0.5, 0.25, 0.25)};
-    box.pose = {Vec3(0, 0.125, 0), exponential(Vec3(0, 0.5, 0))};
-    box.velocity.v = Vec3(-speed, 0, 0);
-    const BodyId body = world.add(box);
+    const BodyId body = world.add(boxAskew(-speed));
     double highest = 0;
     long steps = 0;
     for (int k = 0; k * world.settings().dt < seconds - 1e-9; ++k) {
@@ -356,11 +361,7 @@ TEST(Accuracy, OfABoxThatSlidesAskewIsThatItGoesStraight) {
   constexpr double nu = 0.6, speed = 5, seconds = 0.5;
   for (const std::optional<double> accuracy : {std::optional<double>(), std::optional(1e-3)}) {
     World world = onFloor(accuracy, nu);
-    BodyDef box;
-    box.shape = Box{Vec3(0.5, 0.25, 0.25)};
-    box.pose = {Vec3(0, 0.125, 0), exponential(Vec3(0, 0.5, 0))};
-    box.velocity.v = Vec3(-speed, 0, 0);
-    const BodyId body = world.add(box);
+    const BodyId body = world.add(boxAskew(-speed));
     after(world, seconds);
     const Vec3 v = world.bodies().velocity[body].v;
     EXPECT_NEAR(v.x(), -speed + nu * kGravity * seconds, 1e-3);
