@@ -15,8 +15,8 @@
 namespace physics {
 namespace {
 
-constexpr int kChunksPerThread = 4;
-constexpr int kPatience = 1 << 13;  // looks before sleep, some 150 us: as long as waking takes
+constexpr int kChunksPerThread = 4;  // who comes late leaves an eighth undone, not a half
+constexpr int kPatience = 1 << 13;   // looks before sleep, some 150 us: as long as waking takes
 
 std::uint64_t claimOf(std::uint32_t round, int next, int end) {
   return std::uint64_t{round} << 32 | static_cast<std::uint64_t>(next) << 16 |

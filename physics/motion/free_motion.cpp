@@ -60,7 +60,7 @@ struct BackTurn {
   // 1/n! - x/(n + 2)! + x^2/(n + 4)! - ...
   template <int n>
   static double seriesOf(double x) {
-    constexpr int kTerms = 9;
+    constexpr int kTerms = 9;  // 1 / 20! is below 1e-18
     constexpr std::array<double, kTerms> factors = [] {
       std::array<double, kTerms> of{};
       double factorial = 1;
@@ -156,7 +156,7 @@ FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end)
 
 FreeTurn freeTurn(const Vec3& inertia, const Vec3& omega, double dt, double end,
                   const Vec3& guess) {
-  constexpr int kMostParts = 4096;
+  constexpr int kMostParts = 4096;  // a guard: a spin that needs more is told
   FreeTurn turn = solveTurn(inertia, omega, dt, end, guess);
   for (int parts = 2; !turn.converged && end == 0.5 && parts <= kMostParts; parts *= 2) {
     turn = solveParts(inertia, omega, dt, parts);

@@ -13,8 +13,8 @@ namespace physics {
 namespace {
 
 constexpr int kElasticSweeps = 100;  // after these, what still approaches stays together
-constexpr int kMostSweeps = 200;
-constexpr double kSlowest = 1e-9;  // m/s: slower than this is rounding
+constexpr int kMostSweeps = 200;     // as many again, to stop it
+constexpr double kSlowest = 1e-9;    // m/s: slower than this is rounding
 
 using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;

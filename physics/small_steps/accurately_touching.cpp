@@ -67,7 +67,7 @@ void SmallSteps::Impl::watchVelocities(const Model& w, const Batch& batch) {
 
 // Sweeps until they change velocities by no more than is asked.
 void SmallSteps::Impl::closeVelocities(Model& w, Batch& batch, double h) {
-  constexpr int kMost = 16;
+  constexpr int kMost = 16;  // what has not settled by then the estimate tells
   if (!stepsAccurately(w, batch)) return;
   const double fall = w.settings.gravity ? h * h * w.settings.gravity->norm() : 0;
   const double part = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
@@ -229,6 +229,7 @@ void SmallSteps::Impl::begin(const Model& w, const Batch& batch, double dt) {
 void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int count,
                                          StepReport& report) {
   constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
+  // Of a step, each at its moment: what has more is no motion to follow.
   constexpr int kMostPlaces = 4;
   StepChoice& choice = choices[batch.bodies.front()];
   AccuracyReport told;

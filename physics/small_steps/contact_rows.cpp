@@ -7,6 +7,8 @@
 namespace physics {
 namespace {
 
+// Bits of a word; the last one is for what a body with more contacts has left. Lists are by colour,
+// by whether both bodies move, and by whether joints respond.
 constexpr int kColours = 64, kColourLists = 4 * kColours;
 // Of a colour those of the same bodies lie together, by parts of all contacts: a thread meets the
 // same bodies in each colour, and finds them in its cache.

@@ -34,7 +34,7 @@ struct alignas(64) LaneMotion {
 // What rows need of a body: 1/m, and the lower triangle 00 10 20 11 21 22 of the root. Where
 // nothing turns the body the root is kUnturned: its turns are seen, and what it is given is lost.
 struct alignas(32) LaneMass {
-  static constexpr float kUnturned = 1.f / (1 << 30) / (1 << 10);
+  static constexpr float kUnturned = 1.f / (1 << 30) / (1 << 10);  // squared a number still, 1e-24
   float inverse = 0;
   float root[6] = {};
   float pad = 0;

@@ -144,8 +144,9 @@ inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions, VelocityS
 }
 
 // Velocities of a manifold, none of its points before the others, so that what is symmetric stays
-// so: first by one amount for all that touch, further than what stops them (a column is so many
-// times sooner right), then each by half of its own.
+// so: first by one amount for all that touch, further than what stops them (as over-relaxed sweeps
+// over a column, 2 / (1 + sin pi/n): 1.8 is the best for 30 boxes and below 2 for any), then each
+// by half of its own.
 template <int kCount>
 inline void balanceBlock(ContactBlock& m, LaneMotion* motions) {
   constexpr float kFurther = 1.8f, kOwn = 0.5f;

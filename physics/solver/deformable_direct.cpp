@@ -260,7 +260,7 @@ void Deformable::solvePositions(const JointStage& stage, double push, std::span<
 
 // What the last step of Newton's changed is nothing to the way that was made.
 bool Deformable::isClosed(std::span<const Displacement> moved) const {
-  constexpr double kClosed = 1e-7;
+  constexpr double kClosed = 1e-7;  // its square, what the next step would change, is rounding
   double change = 0, way = 0;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     change = std::max(change, factor_->solution.segment<3>(unknown_[k]).squaredNorm());

@@ -6,7 +6,7 @@ namespace physics {
 
 // The root by Cholesky. A direction that nothing turns has a zero pivot, but for rounding.
 LaneMass laneMassOf(const JointMass& mass) {
-  constexpr double kRounding = 1e-13;
+  constexpr double kRounding = 1e-13;  // 1e3 roundings of the trace
   const Mat3& m = mass.inertia;
   const double least = kRounding * m.trace();
   LaneMass lane;
