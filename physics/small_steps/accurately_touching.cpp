@@ -269,7 +269,7 @@ void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int 
       choice.giveUp();
     }
     hits = false;
-    takeOver(w, batch, whole / trial.steps);
+    takeOver(w, batch);
     holdLoads(batch);
     batch.joints.finish(w.kinds, whole / trial.steps);
     ++told.accepted;

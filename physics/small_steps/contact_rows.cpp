@@ -195,6 +195,7 @@ void emptyLane(ContactBlock& block, int l) {
   block.bodyA[l] = block.bodyB[l] = 0;
   put(block.n, l, Vec3::UnitY());
   block.scale[l] = 1;
+  block.push[l] = 0;
   block.rate[l] = block.staticFriction[l] = block.dynamicFriction[l] = 0;
   block.twist[l] = block.change[l] = 0;
   for (auto& t : block.tangent) t.lambda[l] = 0;
@@ -221,9 +222,8 @@ void placeLane(const KeptContact& c, std::span<const Pose> pose, bool isWithin, 
   for (int k = c.count; k < block.points; ++k) emptyPoint(block, k, l);
 }
 
-// Rows of a block at the present poses, for substeps of h.
-void SmallSteps::Impl::fill(const Model& w, const Batch& batch, double h,
-                            ContactBlock& block) const {
+// Rows of a block at the present poses, for a substep of its island's.
+void SmallSteps::Impl::fill(const Model& w, const Batch& batch, ContactBlock& block) const {
   const Bodies& b = w.bodies;
   const bool isWithin = stepsAccurately(w, batch);
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
@@ -237,6 +237,8 @@ void SmallSteps::Impl::fill(const Model& w, const Batch& batch, double h,
     const Softness soft = learning ? Softness{} : softnessOf(b, c);
     block.scale[l] = soft.scale;
     block.rate[l] = soft.rate;
+    const double h = lengthOf(b, c);
+    block.push[l] = static_cast<float>(w.settings.contact->maxSeparationSpeed * h);
     block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
     block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
     placeLane(c, b.pose, isWithin, block, l);
@@ -249,7 +251,7 @@ FrictionAt SmallSteps::Impl::frictionAt(const Model& w, const Batch& batch) cons
   return {static_cast<float>(w.settings.contact->margin), stepsAccurately(w, batch)};
 }
 
-void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
+void SmallSteps::Impl::rows(Model& w, Batch& batch) {
   w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
     for (int s = std::max(from, 1); s < to; ++s) {
       batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
@@ -259,24 +261,25 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch, double h) {
   });
   const FrictionAt friction = frictionAt(w, batch);
   forEachRun(w, batch, [&](int from, int to) {
-    for (int i = from; i < to; ++i) fill(w, batch, h, batch.blocks[i]);
+    for (int i = from; i < to; ++i) fill(w, batch, batch.blocks[i]);
     contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), friction);
   });
-  noteDeep(w, batch, h);
+  noteDeep(batch);
 }
 
 // Multipliers from the lanes to the contacts that are kept.
-void SmallSteps::Impl::takeOver(Model& w, Batch& batch, double h) {
+void SmallSteps::Impl::takeOver(Model& w, Batch& batch) {
   physics::takeOver(batch.softRows, batch.soft);
   forEachRun(w, batch, [&](int from, int to) {
-    for (int i = from; i < to; ++i) takeOver(batch.blocks[i], h);
+    for (int i = from; i < to; ++i) takeOver(w.bodies, batch.blocks[i]);
   });
 }
 
-void SmallSteps::Impl::takeOver(const ContactBlock& block, double h) {
+void SmallSteps::Impl::takeOver(const Bodies& b, const ContactBlock& block) {
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (block.contact[l] < 0) continue;
     KeptContact& c = contacts[block.contact[l]];
+    const double h = lengthOf(b, c);
     const double scale = substepRatio(c, h);
     for (int k = 0; k < c.count; ++k) {
       // One that touched when it was first seen has carried its load before.

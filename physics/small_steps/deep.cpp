@@ -26,12 +26,11 @@ void forEachOverlap(std::span<const ContactBlock> blocks, F&& f) {
 // of them pushed alike, a crowd could balance with the one inside the other: around the deepest the
 // others are pushed in proportion to their depth, which is how springs unpack. Figures come apart
 // as their joints let them, in turns with these.
-void SmallSteps::Impl::noteDeep(const Model& w, Batch& batch, double h) const {
-  const float push = static_cast<float>(w.settings.contact->maxSeparationSpeed * h);
+void SmallSteps::Impl::noteDeep(Batch& batch) const {
   batch.isDeep = false;
   const auto isJointed = [&](int slot) { return articulationOf[batch.slots[slot]] >= 0; };
   forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float depth) {
-    if (!(block.scale[l] * block.rate[l] * depth > push)) return;
+    if (!(block.scale[l] * block.rate[l] * depth > block.push[l])) return;
     if (isJointed(block.bodyA[l]) || isJointed(block.bodyB[l])) return;
     batch.isDeep = true;
     for (const int slot : {block.bodyA[l], block.bodyB[l]}) {

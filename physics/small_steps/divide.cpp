@@ -152,6 +152,11 @@ BodyId SmallSteps::Impl::rootOf(const Model& w, const KeptContact& c) const {
   return islands[moverOf(w.bodies, c)];
 }
 
+// The substep of that island [s].
+double SmallSteps::Impl::lengthOf(const Bodies& b, const KeptContact& c) const {
+  return length[moverOf(b, c)];
+}
+
 // Substeps that a body's island takes at the least.
 int SmallSteps::Impl::leastOf(const Model& w, BodyId i) const {
   if (w.settings.substeps) return *w.settings.substeps;

@@ -110,8 +110,9 @@ void SmallSteps::Impl::learnLoads(Model& w, Batch& batch) {
   const double h = w.settings.dt / batch.substeps;
   layOut(w, batch);
   batch.joints.take(articulations, batch.articulations);
-  predict(w, batch, h, true);
-  if (!batch.blocks.empty()) rows(w, batch, h);
+  for (const BodyId i : batch.bodies) length[i] = h;
+  predict(w, batch, true);
+  if (!batch.blocks.empty()) rows(w, batch);
   lookAgain(w, batch, h);
   batch.sweeps = batch.isMixed() ? kJointedSweeps : kSweeps;
   learnt.assign(batch.blocks.size(), LoadRound{});
@@ -123,7 +124,7 @@ void SmallSteps::Impl::learnLoads(Model& w, Batch& batch) {
   });
   learnt = {};
   batch.sweeps = 1;
-  for (int i = 0; i < 2; ++i) takeOver(w, batch, h);  // as if it had been for two steps
+  for (int i = 0; i < 2; ++i) takeOver(w, batch);  // as if it had been for two steps
   ask(w, batch, h);
   for (const int k : batch.contacts) {
     KeptContact& c = contacts[k];

@@ -55,6 +55,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   colours.resize(bodies);
   coloursFixed.resize(bodies);
   inertiaOf.resize(bodies);
+  length.resize(bodies);
   masses.resize(bodies);
   moved.resize(bodies);
   stiffness.resize(bodies, Mat3::Zero());
@@ -84,10 +85,11 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
 void SmallSteps::Impl::run(Model& w, Batch& batch, double h, int count, StepReport& report) {
   batch.joints.take(articulations, batch.articulations);
   batch.joints.seeStart({w.kinds, w.bodies.pose, w.bodies.pose, h, masses, moved});
+  for (const BodyId i : batch.bodies) length[i] = h;
   for (int i = 0; i < count; ++i) {
     takeFactors(w.kinds, w.bodies, now + i * h, now + (i + 1) * h);
-    predict(w, batch, h, i == 0);
-    if (i == 0 && !batch.blocks.empty()) rows(w, batch, h);
+    predict(w, batch, i == 0);
+    if (i == 0 && !batch.blocks.empty()) rows(w, batch);
     lookAgain(w, batch, h);
     noteApproach(w, batch, h);
     substep(w, batch, h, report);
@@ -97,7 +99,7 @@ void SmallSteps::Impl::run(Model& w, Batch& batch, double h, int count, StepRepo
 
 // What it leaves to the next step.
 void SmallSteps::Impl::finish(Model& w, Batch& batch, double h) {
-  takeOver(w, batch, h);
+  takeOver(w, batch);
   ask(w, batch, h);
   batch.joints.finish(w.kinds, h);
   for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);

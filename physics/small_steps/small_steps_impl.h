@@ -195,6 +195,7 @@ struct SmallSteps::Impl {
   std::vector<int> placeOf;        // scratch, of a batch's contacts
   std::vector<int> firstOf;        // the same: the first lane of a colour's, of a part
   std::vector<Inertia> inertiaOf;  // by body, of this step
+  std::vector<double> length;      // by body: of its substep [s], one for all of an island
   std::vector<JointMass> masses;
   std::vector<Displacement> moved;
   std::vector<Mat3> stiffness;
@@ -274,10 +275,10 @@ struct SmallSteps::Impl {
   bool lookSoft(Model& w);
   void gatherSoft(Model& w);
   void lookAgain(Model& w, Batch& batch, double h);
-  void predict(Model& w, Batch& batch, double h, bool first);
+  void predict(Model& w, Batch& batch, bool first);
   bool isHalved(const Batch& batch, BodyId i) const;
   void giveOtherHalf(const Model& w, const Batch& batch, double h);
-  void predictBody(Model& w, const Batch& batch, BodyId i, double h, bool first);
+  void predictBody(Model& w, const Batch& batch, BodyId i, bool first);
   void predictTurn(Model& w, BodyId i, double h, double kick, bool first);
   LaneBodies lanesOf(Batch& batch) const;
   void toLane(Batch& batch, int slot);
@@ -291,8 +292,8 @@ struct SmallSteps::Impl {
   void sweepContactVelocities(Model& w, Batch& batch, int s, double h);
   void tellBodies(Model& w, Batch& batch, const JointStage& stage);
   void balanceContacts(Model& w, Batch& batch);
-  void displaceBody(Model& w, BodyId i, double h);
-  void displaceAll(Model& w, Batch& batch, double h);
+  void displaceBody(Model& w, BodyId i);
+  void displaceAll(Model& w, Batch& batch);
   template <class F>
   static void forEachLane(const Batch& batch, F&& f);
   void noteApproach(Model& w, Batch& batch, double h);
@@ -314,8 +315,8 @@ struct SmallSteps::Impl {
   FrictionAt frictionAt(const Model& w, const Batch& batch) const;
   void renew(const Model& w, const Batch& batch, ContactBlock& block) const;
   void renewTurned(Model& w, Batch& batch);
-  void takeOver(Model& w, Batch& batch, double h);
-  void takeOver(const ContactBlock& block, double h);
+  void takeOver(Model& w, Batch& batch);
+  void takeOver(const Bodies& b, const ContactBlock& block);
   double sagOf(BodyId root) const;
   void weighMotion(const Model& w, const Batch& batch, double h);
   struct Weighed {  // a contact, of what its island is weighed by
@@ -361,12 +362,13 @@ struct SmallSteps::Impl {
   std::vector<LoadRound> learnt;
   void goAhead(const Model& w, Batch& batch);
   BodyId rootOf(const Model& w, const KeptContact& c) const;
+  double lengthOf(const Bodies& b, const KeptContact& c) const;
   bool isJointed(const KeptContact& c) const;
   double smallSag(const Model& w, const KeptContact& c, double size) const;
   Softness softnessOf(const Bodies& b, const KeptContact& c) const;
-  void fill(const Model& w, const Batch& batch, double h, ContactBlock& block) const;
-  void rows(Model& w, Batch& batch, double h);
-  void noteDeep(const Model& w, Batch& batch, double h) const;
+  void fill(const Model& w, const Batch& batch, ContactBlock& block) const;
+  void rows(Model& w, Batch& batch);
+  void noteDeep(Batch& batch) const;
   std::vector<SoftPair> softPairs;
   std::vector<SoftContact> gathered;  // scratch, and its order
   std::vector<int> gatherOrder;

@@ -38,7 +38,7 @@ Inertia kindOfInertia(const Bodies& b, BodyId i) {
 }  // namespace
 
 // u = h v + h^2 M^-1 f, with the inertia at X^t and, where joints pull, their geometric stiffness.
-void SmallSteps::Impl::predict(Model& w, Batch& batch, double h, bool first) {
+void SmallSteps::Impl::predict(Model& w, Batch& batch, bool first) {
   for (const int k : batch.articulations) {
     for (const BodyId i : articulations[k].bodies()) stiffness[i].setZero();
   }
@@ -46,7 +46,7 @@ void SmallSteps::Impl::predict(Model& w, Batch& batch, double h, bool first) {
   w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
                          [&](int from, int to) {
                            for (int k = from; k < to; ++k) {
-                             predictBody(w, batch, batch.bodies[k], h, first);
+                             predictBody(w, batch, batch.bodies[k], first);
                            }
                          });
 }
@@ -72,8 +72,9 @@ void SmallSteps::Impl::giveOtherHalf(const Model& w, const Batch& batch, double 
   }
 }
 
-void SmallSteps::Impl::predictBody(Model& w, const Batch& batch, BodyId i, double h, bool first) {
+void SmallSteps::Impl::predictBody(Model& w, const Batch& batch, BodyId i, bool first) {
   Bodies& b = w.bodies;
+  const double h = length[i];
   Displacement& m = moved[i];
   Velocity& v = b.velocity[i];
   b.start[i] = b.pose[i];
@@ -156,7 +157,7 @@ void SmallSteps::Impl::lookAgain(Model& w, Batch& batch, double h) {
 }
 
 // X <- X + u. Contacts alone leave the lanes as they are, but where a turn of inertia changes them.
-void SmallSteps::Impl::displaceAll(Model& w, Batch& batch, double h) {
+void SmallSteps::Impl::displaceAll(Model& w, Batch& batch) {
   const bool inLanes = !batch.blocks.empty(), alone = inLanes && !batch.isMixed();
   const bool isGiven = giveExactly(w, batch);
   w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
@@ -164,7 +165,7 @@ void SmallSteps::Impl::displaceAll(Model& w, Batch& batch, double h) {
                            for (int k = from; k < to; ++k) {
                              const BodyId i = batch.bodies[k];
                              if (alone && !isGiven) fromLane(batch, k + 1);
-                             displaceBody(w, i, h);
+                             displaceBody(w, i);
                              if (!inLanes) continue;
                              LaneMotion& lane = batch.motions[k + 1];
                              for (int c = 0; c < 3; ++c) {
@@ -177,7 +178,7 @@ void SmallSteps::Impl::displaceAll(Model& w, Batch& batch, double h) {
 }
 
 // Angular momentum is kept while the inertia turns.
-void SmallSteps::Impl::displaceBody(Model& w, BodyId i, double h) {
+void SmallSteps::Impl::displaceBody(Model& w, BodyId i) {
   Bodies& b = w.bodies;
   Displacement& m = moved[i];
   displace(b.pose[i], m.u, m.theta);
@@ -190,7 +191,7 @@ void SmallSteps::Impl::displaceBody(Model& w, BodyId i, double h) {
     return;
   }
   const Vec3 given = m.theta - spins[i];
-  const Vec3 momentum = inertias[i] * (h * b.velocity[i].w + given);
+  const Vec3 momentum = inertias[i] * (length[i] * b.velocity[i].w + given);
   masses[i].inertia = worldInertia(b.pose[i].q.toRotationMatrix(), b.inverseInertia[i]);
   m.theta = masses[i].inertia * momentum;
 }
@@ -325,20 +326,20 @@ void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& rep
   Bodies& b = w.bodies;
   solvePositions(w, batch, h);
   profileScope("motion");
-  displaceAll(w, batch, h);
+  displaceAll(w, batch);
   renewTurned(w, batch);
   noteGiven(w, batch);
   giveOtherHalf(w, batch, h);
   solveVelocities(w, batch, h);
   profileScope("motion");
   const bool alone = !batch.blocks.empty() && !batch.isMixed(), isGiven = giveExactly(w, batch);
-  const double rate = 1 / h;
   w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
                          [&](int from, int to) {
                            for (int k = from; k < to; ++k) {
                              const BodyId i = batch.bodies[k];
                              if (inertiaOf[i] == Inertia::kGiven) continue;
                              if (alone && !isGiven) fromLane(batch, k + 1);
+                             const double rate = 1 / length[i];
                              b.velocity[i].v = rate * moved[i].u;
                              b.velocity[i].w = rate * moved[i].theta;
                            }

@@ -26,9 +26,7 @@ void SmallSteps::Impl::sweepContactPositions(Model& w, Batch& batch, PositionSwe
 // follow that, as they do where bodies are single. Until they are done only the lanes know what
 // bodies without joints move by.
 void SmallSteps::Impl::takeTurns(Model& w, Batch& batch, const JointStage& stage) {
-  const PositionSweep which = {
-      .push = static_cast<float>(w.settings.contact->maxSeparationSpeed * stage.h),
-      .isDrawnByLoad = true};
+  const PositionSweep which = {.isDrawnByLoad = true};
   toLanes(w, batch);
   warmStartContacts(w, batch);
   batch.joints.startTurns(stage, lanesOf(batch));
@@ -56,8 +54,7 @@ void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const Joint
   respond(batch);
   startGiving(w, batch);
   warmStartContacts(w, batch);
-  PositionSweep which = {.push =
-                             static_cast<float>(w.settings.contact->maxSeparationSpeed * stage.h)};
+  PositionSweep which;
   const int sweeps = batch.isDeep ? kPositionSweeps : 1;
   for (int s = 0; s < sweeps; ++s) {
     which.onlyDeep = s > 0;

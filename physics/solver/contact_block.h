@@ -70,6 +70,7 @@ struct alignas(32) ContactBlock {
   float held[kPoints][8];   // what it carries where the bodies just touch
   float drawn[kPoints][8];  // by so much it is compressed there [m]
   float scale[8], rate[8];  // softness
+  float push[8];            // overlap is taken back in a substep by no more [m]
   float change[8];          // sum of A dlambda^2 in the last velocity sweep
   int contact[8];           // index of the contact, -1: an empty lane
   int points = kPoints;     // no lane has more
@@ -78,7 +79,6 @@ struct alignas(32) ContactBlock {
 enum class ContactRows : char { kAll, kNormal, kFriction };
 
 struct PositionSweep {
-  float push = 0;  // overlap is taken back by no more [m]
   // What a spring is drawn by under the load that it carries now does not count as overlap, as what
   // it is drawn by under `held` does not.
   bool isDrawnByLoad = false;

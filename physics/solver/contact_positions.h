@@ -58,7 +58,7 @@ struct Depths {
                      : load(m.drawn[i]);
       own = larger(own, zero - (c[i] + drawn[i]));
     }
-    share = smaller(full, all(which.push) / larger(own, near));
+    share = smaller(full, load(m.push) / larger(own, near));
   }
 };
 
@@ -70,7 +70,7 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSw
   if (which.onlyDeep && !isNear) return;
   Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
   if (isNear && !which.onlyDeep) {
-    const Lanes deep = depths.full * depths.own - all(which.push);
+    const Lanes deep = depths.full * depths.own - load(m.push);
     forgetFriction(m, wherePositive(depths.near, deep, all(0)), a, b);
   }
   const Lanes3 n = load(m.n);

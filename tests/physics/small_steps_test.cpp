@@ -254,7 +254,7 @@ TEST_P(ContactKernelsOf, GiveTheSameBytesInHalvesAndInOne) {
     start.bodyB[l] = l == 3 ? 0 : 2 + 2 * l;
     const Vec3 n = Vec3{next(), next(), next()}.normalized();
     for (int k = 0; k < 3; ++k) start.n[k][l] = static_cast<float>(n[k]);
-    start.scale[l] = 0.9f, start.rate[l] = 0.2f;
+    start.scale[l] = 0.9f, start.rate[l] = 0.2f, start.push[l] = 0.01f;
     start.staticFriction[l] = 0.6f, start.dynamicFriction[l] = 0.5f;
     for (auto& p : start.point) {
       for (int k = 0; k < 3; ++k) p.wA[k][l] = next(), p.wB[k][l] = next();
@@ -266,7 +266,7 @@ TEST_P(ContactKernelsOf, GiveTheSameBytesInHalvesAndInOne) {
                         LaneMotion(&moved)[17]) {
     kernels.prepare(&block, 1, masses, FrictionAt{0.02f});
     kernels.warmStart(&block, 1, moved);
-    kernels.sweepPositions(&block, 1, moved, {.push = 0.01f});
+    kernels.sweepPositions(&block, 1, moved, {});
     for (int k = 0; k < 3; ++k) {
       kernels.sweepVelocities(&block, 1, moved, {.first = k == 0, .last = k == 2});
     }
