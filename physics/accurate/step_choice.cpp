@@ -34,7 +34,7 @@ double rootOf(double x, int n) {
   return scale * root;
 }
 
-void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_, resolves_); }
+void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_, resolves_, lost_); }
 
 double StepChoice::next(double left, double time) {
   if (!(wanted_ > 0)) wanted_ = time;
@@ -61,6 +61,7 @@ void StepChoice::reject(double step, double error, double allowed) {
 void StepChoice::accept(double step, double error, double coarser, double allowed, double time) {
   bound_ *= kRegained;
   resolves_ = true;
+  lost_ = 0;
   const auto bounded = [&](double of) { return std::min(of, bound_); };
   const auto work = [&](double of, int columns) { return workOf(columns) / std::min(of, time); };
   const double here = bounded(stepFor(step, error, columns_, allowed));

@@ -27,8 +27,13 @@ class StepChoice {
   void reject(double step, double error, double allowed);
   // `coarser`: the error of one column less.
   void accept(double step, double error, double coarser, double allowed, double time);
-  // A step that is kept, whatever it errs by.
-  void giveUp() { resolves_ = false; }
+  // A step that is kept, whatever it errs by. `lost`: that, where no step resolves the motion.
+  void giveUp(double lost) {
+    resolves_ = false;
+    lost_ = lost;
+  }
+  // What the last step erred by, where none resolves it; 0: one may.
+  double lost() const { return lost_; }
   // The last step erred by no more than was allowed.
   bool resolves() const { return resolves_; }
   void forget() {
@@ -41,6 +46,7 @@ class StepChoice {
   double stepFor(double step, double error, int columns, double allowed) const;
   int power_, least_, most_, columns_;
   bool resolves_ = false;
+  double lost_ = 0;
   double wanted_ = 0;                                       // [s]; 0: not known
   double bound_ = std::numeric_limits<double>::infinity();  // longer ones failed [s]
 };

@@ -1,4 +1,10 @@
-// Islands that step by an accuracy and touch.
+// Islands that step by an accuracy and touch: by the substeps of the default, whose error has all
+// powers of h while nothing comes into touch or leaves it, and the steps are divided about where
+// something does. Where bodies err or contacts change in many places at once no step resolves it:
+// an island goes on by the default then, and the estimate tells.
+//
+// Each has steps and moments of its own. Contacts know nothing of the length of a substep, so that
+// islands with as many to make make them in the same lanes; none feels the others.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,11 +15,6 @@
 
 namespace physics {
 namespace {
-
-// Contacts are in single precision: of a displacement no less than this part is known.
-constexpr double kKnown = 1e-6;
-
-double square(double x) { return x * x; }
 
 bool slides(const KeptContact& c, double along, double normal) {
   constexpr double kOnCone = 1 - 1e-5;  // but for single precision
@@ -37,258 +38,335 @@ double SmallSteps::Impl::sizeOf(const Bodies& b, const Batch& batch) const {
   return (high - low).norm();
 }
 
-// What a sweep has changed, and the largest way [m]: points of bodies, in this substep.
-double SmallSteps::Impl::changeOf(const Batch& batch, double& way) {
-  double change = 0;
-  swept.resize(batch.motions.size());
-  for (std::size_t s = 1; s < batch.motions.size(); ++s) {
-    const LaneMotion& now = batch.motions[s];
-    double du = 0, dturn = 0, u = 0, turn = 0;
-    for (int k = 0; k < 3; ++k) {
-      du += square(now.u[k] - swept[s].u[k]);
-      dturn += square(now.turn[k] - swept[s].turn[k]);
-      u += square(now.u[k]);
-      turn += square(now.turn[k]);
-      swept[s].u[k] = now.u[k];
-      swept[s].turn[k] = now.turn[k];
-    }
-    const double arm = radius[batch.slots[s]];
-    change = std::max(change, std::sqrt(du) + arm * std::sqrt(dturn));
-    way = std::max(way, std::sqrt(u) + arm * std::sqrt(turn));
-  }
-  return change;
-}
-
-// What the next sweep over contacts alone may be the last one after, where it changes no more.
-void SmallSteps::Impl::watchVelocities(const Model& w, const Batch& batch) {
-  double way = 0;
-  if (stepsAccurately(w, batch)) changeOf(batch, way);
-}
-
-// Sweeps until they change velocities by no more than is asked.
-void SmallSteps::Impl::closeVelocities(Model& w, Batch& batch, double h) {
-  constexpr int kMost = 16;  // what has not settled by then the estimate tells
-  if (!stepsAccurately(w, batch)) return;
-  const double fall = w.settings.gravity ? h * h * w.settings.gravity->norm() : 0;
-  const double part = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
-  for (int s = 0; s < kMost; ++s) {
-    double way = fall;
-    if (changeOf(batch, way) <= part * way) return;
-    sweepContactVelocities(w, batch, {.first = false, .last = true});
-  }
+// What one of its steps may err by, of its size.
+double SmallSteps::Impl::allowedError(const Model& w) const {
+  return std::max(kShareOfStep * *w.settings.accuracy, kKnown);
 }
 
 void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) goBack(b, batch, k);
 }
 
-// From where `batch.kept` stands, in so many substeps, to the next row of its tableau.
-void SmallSteps::Impl::addRow(Model& w, Batch& batch, double whole, int steps, StepReport& report) {
-  goBack(w.bodies, batch);
-  run(w, batch, whole / steps, steps, report);
-  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
-    trial.pose[k] = w.bodies.pose[batch.bodies[k]];
-    trial.velocity[k] = w.bodies.velocity[batch.bodies[k]];
-  }
-  trial.tableau.add(steps, 1, trial.pose, trial.velocity);
-  trial.steps = steps;
-  noteLoads(batch, whole / steps);
-  trial.coarser = trial.error;
-  if (trial.tableau.rows() == 1) return;
-  trial.error = trial.tableau.difference(trial.extent, trial.time, trial.levers, trial.allowed,
-                                         &trial.places);
-}
-
-// A step of `whole`, by a tableau whose last row has so many substeps; and by further columns,
-// where it is smooth and they do. Where contacts change no column does better than the last row's
-// substeps: what these err by is the difference to all of them.
-void SmallSteps::Impl::tryOut(Model& w, Batch& batch, double whole, StepChoice& choice, int most,
-                              StepReport& report) {
-  const int columns = choice.columns();
-  const auto stepsOf = [&](int row) { return (most * row + columns - 1) / columns; };
-  trial.error = trial.coarser = std::numeric_limits<double>::infinity();
-  trial.places = 0;
-  trial.tableau.clear(batch.bodies.size());
-  for (int j = 1; j <= columns; ++j) addRow(w, batch, whole, stepsOf(j), report);
-  trial.changes = changesIn(batch);
-  while (trial.changes == 0 && trial.error > trial.allowed && choice.extend()) {
-    addRow(w, batch, whole, stepsOf(choice.columns()), report);
-    trial.changes = changesIn(batch);
-  }
-  if (trial.changes > 0) {
-    trial.error = std::max(trial.error, trial.tableau.gain(trial.extent, trial.time, trial.levers));
-  }
-}
-
-// Contacts that touch at other points at the end of a step than they did before, or that slide or
-// stick now and did not.
-int SmallSteps::Impl::changesIn(const Batch& batch) const {
-  int count = 0;
-  for (const ContactBlock& block : batch.blocks) {
-    for (int l = 0; l < ContactBlock::kLanes; ++l) {
-      if (block.contact[l] < 0) continue;
-      const KeptContact& c = contacts[block.contact[l]];
-      double sum = 0, before = 0;
-      bool isChanged = false;
-      for (int k = 0; k < c.count; ++k) {
-        const double now = block.point[k].lambda[l];
-        isChanged = isChanged || (now > 0) != (c.lambda[k] > 0);
-        sum += now;
-        before += c.lambda[k];
-      }
-      const double along = std::hypot(block.tangent[0].lambda[l], block.tangent[1].lambda[l]);
-      count += isChanged || slides(c, along, sum) != slides(c, c.tangential.norm(), before);
+// Contacts that touch at other points at the end of a row than they did before the step, or that
+// slide or stick now and did not.
+void SmallSteps::Impl::countChanges(std::span<Trial* const> group, const Batch& batch) const {
+  for (Trial* trial : group) trial->changes = 0;
+  forEachPart(batch, [&](std::size_t i, int l, int part) {
+    const ContactBlock& block = batch.blocks[i];
+    const KeptContact& c = contacts[block.contact[l]];
+    double sum = 0, before = 0;
+    bool isChanged = false;
+    for (int k = 0; k < c.count; ++k) {
+      const double load = block.point[k].lambda[l];
+      isChanged = isChanged || (load > 0) != (c.lambda[k] > 0);
+      sum += load;
+      before += c.lambda[k];
     }
-  }
-  return count;
+    const double along = std::hypot(block.tangent[0].lambda[l], block.tangent[1].lambda[l]);
+    isChanged = isChanged || slides(c, along, sum) != slides(c, c.tangential.norm(), before);
+    group[part]->changes += isChanged;
+  });
 }
 
 // What contacts carry where a row ends, and where the one before it ended.
-void SmallSteps::Impl::noteLoads(const Batch& batch, double h) {
-  std::swap(trial.loads, trial.coarserLoads);
-  trial.loads.resize(batch.blocks.size());
-  for (std::size_t i = 0; i < batch.blocks.size(); ++i) {
+void SmallSteps::Impl::noteLoads(const Model& w, const Batch& batch) {
+  forEachPart(batch, [&](std::size_t i, int l, int) {
     const ContactBlock& block = batch.blocks[i];
-    for (int l = 0; l < ContactBlock::kLanes; ++l) {
-      for (int k = 0; k < block.points; ++k) {
-        trial.loads[i][l][k] = block.point[k].lambda[l] / (h * h);
-      }
+    const int contact = block.contact[l];
+    const double h = lengthOf(w.bodies, contacts[contact]);
+    coarserLoads[contact] = rowLoads[contact];
+    for (int k = 0; k < block.points; ++k) {
+      rowLoads[contact][k] = block.point[k].lambda[l] / (h * h);
     }
-  }
+  });
 }
 
 // A contact gives way by its load and h^2, so that what rests would be at another place in each
 // row. The load that two rows agree on is the contact's: about it the law is, as it is about the
 // loads that a scene starts with, and what rests is where it touches in all of them.
-void SmallSteps::Impl::holdLoads(const Batch& batch) {
+void SmallSteps::Impl::holdLoads(const Model& w, const Trial& trial) {
   if (trial.changes > 0) return;
-  for (std::size_t i = 0; i < batch.blocks.size(); ++i) {
-    for (int l = 0; l < ContactBlock::kLanes; ++l) {
-      if (batch.blocks[i].contact[l] < 0) continue;
-      KeptContact& c = contacts[batch.blocks[i].contact[l]];
-      const auto isNone = [](double load) { return load == 0; };
-      if (!std::all_of(c.held.begin(), c.held.end(), isNone)) continue;
-      const auto &load = trial.loads[i][l], &coarser = trial.coarserLoads[i][l];
-      double sum = 0, difference = 0;
-      for (int k = 0; k < c.count; ++k) {
-        sum += load[k];
-        difference = std::max(difference, std::abs(load[k] - coarser[k]));
-      }
-      if (difference <= trial.allowed * sum) std::copy_n(load.begin(), c.count, c.held.begin());
+  for (const int contact : batches[trial.batch].contacts) {
+    KeptContact& c = contacts[contact];
+    const auto isNone = [](double load) { return load == 0; };
+    if (!std::all_of(c.held.begin(), c.held.end(), isNone)) continue;
+    const PointLoads &load = rowLoads[contact], &coarser = coarserLoads[contact];
+    double sum = 0, difference = 0;
+    for (int k = 0; k < c.count; ++k) {
+      sum += load[k];
+      difference = std::max(difference, std::abs(load[k] - coarser[k]));
     }
+    if (difference <= allowedError(w) * sum) std::copy_n(load.begin(), c.count, c.held.begin());
   }
 }
 
-// Where `trial` is, something is off the ground that the last row ends on.
-bool SmallSteps::Impl::opensAtTrial(const Bodies& b, const Batch& batch) {
-  for (std::size_t k = 0; k < batch.bodies.size(); ++k) trialNow[batch.bodies[k]] = trial.pose[k];
-  for (std::size_t i = 0; i < batch.blocks.size(); ++i) {
-    for (int l = 0; l < ContactBlock::kLanes; ++l) {
-      if (batch.blocks[i].contact[l] < 0) continue;
-      const KeptContact& c = contacts[batch.blocks[i].contact[l]];
-      const auto& load = trial.loads[i][l];
-      const bool carries =
-          std::any_of(load.begin(), load.begin() + c.count, [](double of) { return of > 0; });
-      if (carries && gapAtTrial(b, c) > kClose) return true;
-    }
-  }
-  return false;
+// Where `reached` is, something is off the ground that the last row ends on.
+bool SmallSteps::Impl::opensAtEnd(const Bodies& b, const Batch& batch) {
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) trialNow[batch.bodies[k]] = reached.pose[k];
+  return std::any_of(batch.contacts.begin(), batch.contacts.end(), [&](int contact) {
+    const KeptContact& c = contacts[contact];
+    const PointLoads& load = rowLoads[contact];
+    const bool carries =
+        std::any_of(load.begin(), load.begin() + c.count, [](double of) { return of > 0; });
+    return carries && gapAtTrial(b, c) > kClose;
+  });
 }
 
 // What rests is left to rest: where the last row's end is known no better, it is that. And where
 // contacts hold there: what extrapolates does not know that nothing passes a surface.
-void SmallSteps::Impl::takeBest(Model& w, const Batch& batch) {
+void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
   if (trial.changes > 0) return;
   if (!(trial.tableau.gain(trial.extent, trial.time, trial.levers) > kKnown)) return;
-  trial.tableau.best(trial.pose, trial.velocity);
-  if (opensAtTrial(w.bodies, batch)) return;
+  const Batch& batch = batches[trial.batch];
+  reached.pose.resize(batch.bodies.size());
+  reached.velocity.resize(batch.bodies.size());
+  trial.tableau.best(reached.pose, reached.velocity);
+  if (opensAtEnd(w.bodies, batch)) return;
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
-    w.bodies.pose[batch.bodies[k]] = trial.pose[k];
-    w.bodies.velocity[batch.bodies[k]] = trial.velocity[k];
+    w.bodies.pose[batch.bodies[k]] = reached.pose[k];
+    w.bodies.velocity[batch.bodies[k]] = reached.velocity[k];
   }
 }
 
-void SmallSteps::Impl::begin(const Model& w, const Batch& batch, double dt) {
-  const std::size_t size = batch.bodies.size();
+// At the start of its step.
+void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
+  Batch& batch = batches[trial.batch];
+  trial.left = trial.time = w.settings.dt;
   trial.extent = sizeOf(w.bodies, batch);
-  trial.time = dt;
-  trial.allowed = std::max(kShareOfStep * *w.settings.accuracy, kKnown);
-  trial.levers.resize(size);
-  trial.pose.resize(size);
-  trial.velocity.resize(size);
-  for (std::size_t k = 0; k < size; ++k) {
-    const BodyId i = batch.bodies[k];
-    trial.levers[k] = w.bodies.inverseInertia[i].isZero(0) ? 0 : radius[i];
+  trial.flights = 0;
+  trial.hits = trial.isLaidOut = false;
+  trial.told = {};
+  trial.levers.clear();
+  for (const BodyId i : batch.bodies) {
+    trial.levers.push_back(w.bodies.inverseInertia[i].isZero(0) ? 0 : radius[i]);
   }
 }
 
-// An island that touches, by the substeps of the default: their error has all powers of h while
-// nothing comes into touch or leaves it, and the steps are divided about where something does.
-// Where bodies err or contacts change in many places at once no step resolves it: it goes on by the
-// default, and the estimate tells.
-void SmallSteps::Impl::advanceAccurately(Model& w, Batch& batch, double dt, int count,
-                                         StepReport& report) {
-  constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
-  // Of a step, each at its moment: what has more is no motion to follow.
-  constexpr int kMostPlaces = 4;
+namespace {
+
+constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
+// Of a step, each at its moment: what has more is no motion to follow.
+constexpr int kMostPlaces = 4;
+
+}  // namespace
+
+// What it tries next; as long as nothing touches it flies before that. False: its step is made.
+bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
+  Batch& batch = batches[trial.batch];
   StepChoice& choice = choices[batch.bodies.front()];
-  AccuracyReport told;
-  int flights = 0;
-  const double from = now;
-  bool hits = false;  // an impact comes next: by itself, and what flies on then flies exactly
-  begin(w, batch, dt);
-  for (double left = dt; left > 0;) {
-    if (const double flown = flights < kMostPlaces ? flyToTouch(w, batch, left) : 0; flown > 0) {
-      left = flown == left ? 0 : left - flown;
-      hits = w.bodies.mostRestitution > 0;
-      ++flights;
-      continue;
+  const double dt = w.settings.dt;
+  while (trial.left > 0 && trial.flights < kMostPlaces) {
+    const double flown = flyToTouch(w, batch, trial.left);
+    if (!(flown > 0)) break;
+    trial.left = flown == trial.left ? 0 : trial.left - flown;
+    trial.hits = w.bodies.mostRestitution > 0;
+    ++trial.flights;
+  }
+  if (!(trial.left > 0)) return false;
+  const double next = trial.hits ? 0 : choice.next(trial.left, dt);
+  const double wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
+  trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
+  trial.columns = choice.lost() > 0 ? 1 : choice.columns();
+  trial.most =
+      std::max(trial.columns, static_cast<int>(std::ceil(batch.substeps * trial.whole / dt)));
+  keepStart(w, batch);
+  return true;
+}
+
+// They may try side by side. Joints, and what is given back at impacts, are an island's own.
+bool SmallSteps::Impl::isAlike(const Model& w, const Trial& a, const Trial& b) const {
+  const Batch &of = batches[a.batch], &other = batches[b.batch];
+  const bool isFree = !of.isMixed() && !other.isMixed() && !(w.bodies.mostRestitution > 0);
+  return isFree && a.most == b.most && a.columns == b.columns && of.sweeps == other.sweeps;
+}
+
+// The lanes of a group: those of its only island, or of all of them.
+SmallSteps::Batch& SmallSteps::Impl::lanesFor(Model& w, std::span<Trial* const> group) {
+  if (group.size() == 1) {
+    Batch& batch = batches[group[0]->batch];
+    if (!group[0]->isLaidOut) {
+      layOut(w, batch);
+      batch.partOf.assign(batch.slots.size(), 0);
     }
-    const double next = hits ? 0 : choice.next(left, dt);
-    const double wanted = std::min(std::max(next, kLeastPart * dt), left);
-    now = from + (dt - left);
-    const double whole = nextPart(w.kinds, now, wanted, kLeastPart * dt);
-    const int most = std::max(choice.columns(), static_cast<int>(std::ceil(count * whole / dt)));
-    keepStart(w, batch);
-    tryOut(w, batch, whole, choice, most, report);
-    const bool isSmall = trial.error <= trial.allowed;
-    const bool isFew = trial.places <= kMostPlaces && trial.changes <= kMostPlaces;
-    if (!isSmall && whole > kLeastPart * dt && isFew) {
-      ++told.rejected;
-      goBack(w.bodies, batch);
-      choice.reject(whole, trial.error, trial.allowed);
-      continue;
+    group[0]->isLaidOut = true;
+    return batch;
+  }
+  clear(together);
+  together.sweeps = batches[group[0]->batch].sweeps;
+  together.touches = true;
+  together.partOf.assign(1, 0);
+  for (std::size_t part = 0; part < group.size(); ++part) {
+    const Batch& batch = batches[group[part]->batch];
+    group[part]->isLaidOut = false;
+    together.bodies.insert(together.bodies.end(), batch.bodies.begin(), batch.bodies.end());
+    together.contacts.insert(together.contacts.end(), batch.contacts.begin(), batch.contacts.end());
+    together.partOf.insert(together.partOf.end(), batch.bodies.size(), static_cast<int>(part));
+  }
+  layOut(w, together);
+  return together;
+}
+
+// From where they were kept, in so many substeps, to the next row of their tableaus.
+void SmallSteps::Impl::addRow(Model& w, std::span<Trial* const> group, Batch& batch, int steps,
+                              StepReport& report) {
+  for (Trial* trial : group) {
+    const Batch& own = batches[trial->batch];
+    goBack(w.bodies, own);
+    trial->steps = steps;
+    for (const BodyId i : own.bodies) length[i] = trial->whole / steps;
+  }
+  now = w.time() + (w.settings.dt - group[0]->left);
+  runSubsteps(w, batch, group[0]->whole / steps, steps, report);
+  noteLoads(w, batch);
+  for (Trial* trial : group) addRow(w, *trial);
+}
+
+void SmallSteps::Impl::addRow(const Model& w, Trial& trial) {
+  const Batch& batch = batches[trial.batch];
+  if (trial.tableau.rows() == 0) trial.error = std::numeric_limits<double>::infinity();
+  reached.pose.clear();
+  reached.velocity.clear();
+  for (const BodyId i : batch.bodies) {
+    reached.pose.push_back(w.bodies.pose[i]);
+    reached.velocity.push_back(w.bodies.velocity[i]);
+  }
+  trial.tableau.add(trial.steps, 1, reached.pose, reached.velocity);
+  trial.coarser = trial.error;
+  trial.places = 0;
+  if (trial.tableau.rows() == 1) return;
+  trial.error = trial.tableau.difference(trial.extent, trial.time, trial.levers, allowedError(w),
+                                         &trial.places);
+}
+
+// Each the part of its step that it tries, by a tableau whose last row has as many substeps; and by
+// further columns, where it is smooth and they do.
+void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepReport& report) {
+  const int most = group[0]->most, columns = group[0]->columns;
+  for (Trial* trial : group) trial->tableau.clear(batches[trial->batch].bodies.size());
+  for (int first = 1, last = columns; !group.empty(); first = ++last) {
+    Batch& batch = lanesFor(w, group);
+    for (int row = first; row <= last; ++row) {
+      addRow(w, group, batch, (most * row + columns - 1) / columns, report);
     }
-    if (isSmall) {
-      if (!hits) {  // a jump is no smoother in shorter substeps
-        takeBest(w, batch);
-        choice.accept(whole, trial.error, trial.coarser, trial.allowed, dt);
-      }
-      told.order = std::max(told.order, choice.columns());
+    countChanges(group, batch);
+    conclude(w, group, batch);
+  }
+}
+
+// Where contacts change no column does better than the last row's substeps: what these err by is
+// the difference to all of them. True: that is small enough, or no shorter step would help.
+bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
+  Batch& batch = batches[trial.batch];
+  StepChoice& choice = choices[batch.bodies.front()];
+  const double dt = w.settings.dt, allowed = allowedError(w);
+  const bool isLost = trial.changes > kMostPlaces, isKnown = trial.columns > 1;
+  const bool isSmall = isKnown && trial.error <= allowed;
+  const bool isFew = trial.places <= kMostPlaces && !isLost;
+  if (!isSmall && trial.whole > kLeastPart * dt && isFew) {
+    ++trial.told.rejected;
+    goBack(w.bodies, batch);
+    if (isKnown) {
+      choice.reject(trial.whole, trial.error, allowed);
     } else {
-      choice.giveUp();
+      choice.giveUp(0);  // one may resolve it again
     }
-    hits = false;
-    takeOver(w, batch);
-    holdLoads(batch);
-    batch.joints.finish(w.kinds, whole / trial.steps);
-    ++told.accepted;
-    told.least = told.least > 0 ? std::min(told.least, whole) : whole;
-    told.estimate += trial.error;
-    left = whole == left ? 0 : left - whole;
+    return false;
   }
-  StepListening::tell({batch.bodies.front(), static_cast<int>(batch.bodies.size()), dt,
-                       trial.extent, trial.allowed, told});
-  add(told, report.accuracy);
-  if (told.accepted > 0) {
-    ask(w, batch, dt / count);
-  } else {
-    rest(batch);
+  if (!isSmall) {
+    choice.giveUp(isLost ? trial.error : 0);
+  } else if (!trial.hits) {  // a jump is no smoother in shorter substeps
+    takeBest(w, trial);
+    choice.accept(trial.whole, trial.error, trial.coarser, allowed, dt);
   }
+  if (isSmall) trial.told.order = std::max(trial.told.order, choice.columns());
+  ++trial.told.accepted;
+  trial.told.least = trial.told.least > 0 ? std::min(trial.told.least, trial.whole) : trial.whole;
+  trial.told.estimate += trial.error;
+  trial.hits = false;
+  trial.left = trial.whole == trial.left ? 0 : trial.left - trial.whole;
+  return true;
+}
+
+// Of the group remain those that go on with one more column.
+void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& batch) {
+  ends.clear();
+  bool asks = false;
+  for (Trial* trial : group) {
+    const Batch& own = batches[trial->batch];
+    StepChoice& choice = choices[own.bodies.front()];
+    if (trial->columns == 1) {  // no step resolved the last one, and the default's is all of it
+      trial->error = choice.lost();
+    } else if (trial->changes > 0) {
+      trial->error =
+          std::max(trial->error, trial->tableau.gain(trial->extent, trial->time, trial->levers));
+    } else if (trial->error > allowedError(w) && choice.extend()) {
+      ends.push_back(Ended::kFurther);
+      continue;
+    }
+    ends.push_back(isDone(w, *trial) ? Ended::kAccepted : Ended::kRejected);
+    // What it ends with, or flies on from.
+    asks =
+        asks || (ends.back() == Ended::kAccepted && (!(trial->left > 0) || isOpen(w.bodies, own)));
+  }
+  forEachPart(batch, [&](std::size_t i, int l, int part) {
+    if (ends[part] == Ended::kAccepted) takeOver(w.bodies, batch.blocks[i], l);
+  });
+  for (std::size_t part = 0; part < group.size(); ++part) {
+    if (ends[part] != Ended::kAccepted) continue;
+    holdLoads(w, *group[part]);
+    batch.joints.finish(w.kinds, group[part]->whole / group[part]->steps);
+  }
+  if (asks) ask(w, batch, w.settings.dt / batch.substeps);
+  std::size_t kept = 0;
+  for (std::size_t part = 0; part < group.size(); ++part) {
+    if (ends[part] == Ended::kFurther) group[kept++] = group[part];
+  }
+  group.resize(kept);
+}
+
+// Islands that touch: those that have as many substeps to make, together.
+void SmallSteps::Impl::advanceTouching(Model& w, StepReport& report) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < batchCount; ++k) {
+    if (!stepsAccurately(w, batches[k])) continue;
+    if (count == trials.size()) trials.emplace_back();
+    trials[count].batch = k;
+    begin(w, trials[count++]);
+  }
+  rowLoads.resize(contacts.size());
+  coarserLoads.resize(contacts.size());
+  pending.clear();
+  for (std::size_t k = 0; k < count; ++k) pending.push_back(&trials[k]);
+  const auto isMade = [&](Trial* trial) {
+    if (plan(w, *trial)) return false;
+    finish(w, *trial, report.accuracy);
+    return true;
+  };
+  while (std::erase_if(pending, isMade), !pending.empty()) {
+    waiting = pending;
+    while (!waiting.empty()) {
+      const Trial& first = *waiting.front();
+      group.clear();
+      std::erase_if(waiting, [&](Trial* trial) {
+        if (trial != &first && !isAlike(w, first, *trial)) return false;
+        group.push_back(trial);
+        return true;
+      });
+      tryTogether(w, group, report);
+    }
+  }
+}
+
+void SmallSteps::Impl::finish(const Model& w, const Trial& trial, AccuracyReport& report) {
+  const Batch& batch = batches[trial.batch];
+  StepListening::tell({batch.bodies.front(), static_cast<int>(batch.bodies.size()), w.settings.dt,
+                       trial.extent, allowedError(w), trial.told});
+  add(trial.told, report);
+  if (trial.told.accepted == 0) rest(batch);
 }
 
 // Its contacts have carried nothing.
-void SmallSteps::Impl::rest(Batch& batch) {
+void SmallSteps::Impl::rest(const Batch& batch) {
   for (const int k : batch.contacts) {
     KeptContact& c = contacts[k];
     c.lambda = c.before = c.held = {};

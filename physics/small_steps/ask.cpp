@@ -58,28 +58,29 @@ double SmallSteps::Impl::sagOf(BodyId root) const {
 }
 
 // The energy of islands, by their first body, that the last sweep may change.
-void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch, double h) {
+void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch) {
   const Bodies& b = w.bodies;
-  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0, fall = g * h * h;
+  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
   for (const BodyId i : batch.bodies) {
     energy[i] = change[i] = load[i] = sag[i] = drawn[i] = carried[i] = weight[i] = 0;
   }
   for (const BodyId i : batch.bodies) {
     if (b.motion[i] != Motion::kDynamic) continue;
+    const double fall = g * length[i] * length[i];
     energy[islands[i]] += kRest * b.mass[i] * fall * fall;
     weight[islands[i]] += b.mass[i] * fall;
   }
 }
 
 // The sag of a contact under what it has carried for two steps, and what the last sweep changed.
-SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactBlock& block, int l,
-                                                  double h) const {
+SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactBlock& block,
+                                                  int l) const {
   const Bodies& b = w.bodies;
   const KeptContact& c = contacts[block.contact[l]];
   Weighed of;
   of.root = rootOf(w, c);
   of.change = block.change[l];
-  const double mass = 1 / (b.inverse[c.a].m + b.inverse[c.b].m);
+  const double mass = 1 / (b.inverse[c.a].m + b.inverse[c.b].m), h = lengthOf(b, c);
   of.energy = kMotion * mass * h * h * (b.velocity[c.a].v - b.velocity[c.b].v).squaredNorm();
   const Softness law = softnessOf(b, c);
   const double soft = (1 - law.scale) / (law.scale * law.rate);
@@ -101,13 +102,13 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactB
 }
 
 // Of islands: summed in the order of the contacts, for the same bytes on any number of threads.
-void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch, double h) {
+void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch) {
   weighed.resize(batch.blocks.size());
   forEachRun(w, batch, [&](int from, int to) {
     for (int i = from; i < to; ++i) {
       const ContactBlock& block = batch.blocks[i];
       for (int l = 0; l < ContactBlock::kLanes; ++l) {
-        weighed[i][l] = block.contact[l] < 0 ? Weighed{} : weigh(w, block, l, h);
+        weighed[i][l] = block.contact[l] < 0 ? Weighed{} : weigh(w, block, l);
       }
     }
   });
@@ -201,14 +202,14 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   askDeformables(w, batch, h);
   askJoints(batch);
   askSoft(w, batch);
-  weighMotion(w, batch, h);
-  weighContacts(w, batch, h);
+  weighMotion(w, batch);
+  weighContacts(w, batch);
   askFiner(w, batch);
   const int most = batch.takesTurns() ? kMostJointedSweeps : kMostSweeps;
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {
-      want(i, substepsFor(batch.substeps, sagOf(root)), SubstepLaw::kSag);
+      want(i, substepsFor(substeps[root], sagOf(root)), SubstepLaw::kSag);
     }
     const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;

@@ -134,6 +134,11 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
     block.points = std::max(block.points, contacts[batch.contacts[i]].count);
     place += laneStride(placeOf[i] / places);
   }
+  for (ContactBlock& block : batch.blocks) {
+    for (int l = 0; l < kLanes; ++l) {
+      if (block.contact[l] < 0) emptyLane(block, l);
+    }
+  }
 }
 
 namespace {
@@ -227,10 +232,7 @@ void SmallSteps::Impl::fill(const Model& w, const Batch& batch, ContactBlock& bl
   const Bodies& b = w.bodies;
   const bool isWithin = stepsAccurately(w, batch);
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
-    if (block.contact[l] < 0) {
-      emptyLane(block, l);
-      continue;
-    }
+    if (block.contact[l] < 0) continue;  // as it was laid out
     const KeptContact& c = contacts[block.contact[l]];
     block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
     block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
@@ -271,30 +273,29 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
 void SmallSteps::Impl::takeOver(Model& w, Batch& batch) {
   physics::takeOver(batch.softRows, batch.soft);
   forEachRun(w, batch, [&](int from, int to) {
-    for (int i = from; i < to; ++i) takeOver(w.bodies, batch.blocks[i]);
+    for (int i = from; i < to; ++i) {
+      for (int l = 0; l < ContactBlock::kLanes; ++l) takeOver(w.bodies, batch.blocks[i], l);
+    }
   });
 }
 
-void SmallSteps::Impl::takeOver(const Bodies& b, const ContactBlock& block) {
-  for (int l = 0; l < ContactBlock::kLanes; ++l) {
-    if (block.contact[l] < 0) continue;
-    KeptContact& c = contacts[block.contact[l]];
-    const double h = lengthOf(b, c);
-    const double scale = substepRatio(c, h);
-    for (int k = 0; k < c.count; ++k) {
-      // One that touched when it was first seen has carried its load before.
-      const bool stood = c.step == 0 && block.gap[k][l] <= 0;
-      c.before[k] = stood ? block.point[k].lambda[l] : scale * c.lambda[k];
-      c.lambda[k] = block.point[k].lambda[l];
-    }
-    c.tangential.setZero();
-    for (const auto& t : block.tangent) {
-      c.tangential += double(t.lambda[l]) * Vec3(t.d[0][l], t.d[1][l], t.d[2][l]);
-    }
-    c.twist = block.twist[l];
-    c.step = h;
-    if (std::all_of(c.lambda.begin(), c.lambda.end(), [](double x) { return x == 0; })) c.held = {};
+void SmallSteps::Impl::takeOver(const Bodies& b, const ContactBlock& block, int l) {
+  if (block.contact[l] < 0) return;
+  KeptContact& c = contacts[block.contact[l]];
+  const double h = lengthOf(b, c), scale = substepRatio(c, h);
+  for (int k = 0; k < c.count; ++k) {
+    // One that touched when it was first seen has carried its load before.
+    const bool stood = c.step == 0 && block.gap[k][l] <= 0;
+    c.before[k] = stood ? block.point[k].lambda[l] : scale * c.lambda[k];
+    c.lambda[k] = block.point[k].lambda[l];
   }
+  c.tangential.setZero();
+  for (const auto& t : block.tangent) {
+    c.tangential += double(t.lambda[l]) * Vec3(t.d[0][l], t.d[1][l], t.d[2][l]);
+  }
+  c.twist = block.twist[l];
+  c.step = h;
+  if (std::all_of(c.lambda.begin(), c.lambda.end(), [](double x) { return x == 0; })) c.held = {};
 }
 
 }  // namespace physics

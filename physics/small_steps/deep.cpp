@@ -11,6 +11,7 @@ template <class F>
 void forEachOverlap(std::span<const ContactBlock> blocks, F&& f) {
   for (const ContactBlock& block : blocks) {
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
       float depth = 0;
       for (int k = 0; k < block.points; ++k) {
         depth = std::max(depth, -(block.gap[k][l] + block.drawn[k][l]));

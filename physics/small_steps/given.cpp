@@ -27,7 +27,12 @@ void ContactLoads::giveLane(ContactBlock& block, int l) const {
 
 ContactLoads loadsOf(const ContactBlock& block) {
   ContactLoads loads;
-  for (int l = 0; l < kLanes; ++l) loads.takeLane(block, l);
+  const auto copy = [](const float (&from)[kLanes], float (&to)[kLanes]) {
+    std::copy_n(from, kLanes, to);
+  };
+  for (int k = 0; k < block.points; ++k) copy(block.point[k].lambda, loads.point[k]);
+  for (int t = 0; t < 2; ++t) copy(block.tangent[t].lambda, loads.tangent[t]);
+  copy(block.twist, loads.twist);
   return loads;
 }
 

@@ -73,7 +73,7 @@ bool SmallSteps::Impl::turnsNormal(const ContactBlock& block, int l,
 // see. Then normals between centres turn as well, and what is round has no other.
 bool SmallSteps::Impl::findTurned(const Model& w, Batch& batch) const {
   const bool isAsked = stepsAccurately(w, batch);
-  const double far = isAsked ? std::min(kFar, trial.allowed) : kFar;
+  const double far = isAsked ? std::min(kFar, allowedError(w)) : kFar;
   bool some = false;
   batch.turned.assign(batch.motions.size(), 0);
   for (std::size_t s = 1; s < batch.motions.size(); ++s) {

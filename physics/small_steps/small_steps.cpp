@@ -83,9 +83,15 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
 // Substeps of h from where the bodies are, and from `now` on. What contacts and joints carried
 // before is as it was.
 void SmallSteps::Impl::run(Model& w, Batch& batch, double h, int count, StepReport& report) {
+  for (const BodyId i : batch.bodies) length[i] = h;
+  runSubsteps(w, batch, h, count, report);
+}
+
+// The same, of islands without constraints each in its own length.
+void SmallSteps::Impl::runSubsteps(Model& w, Batch& batch, double h, int count,
+                                   StepReport& report) {
   batch.joints.take(articulations, batch.articulations);
   batch.joints.seeStart({w.kinds, w.bodies.pose, w.bodies.pose, h, masses, moved});
-  for (const BodyId i : batch.bodies) length[i] = h;
   for (int i = 0; i < count; ++i) {
     takeFactors(w.kinds, w.bodies, now + i * h, now + (i + 1) * h);
     predict(w, batch, i == 0);
@@ -119,18 +125,15 @@ void SmallSteps::Impl::advance(Model& w, StepReport& report) {
   for (std::size_t k = 0; k < batchCount; ++k) {
     const int count = batches[k].substeps;
     const double h = dt / count;
-    now = w.time();
     report.substeps = std::max(report.substeps, count);
+    if (stepsAccurately(w, batches[k])) continue;
     layOut(w, batches[k]);
     keepStart(w, batches[k]);
-    if (stepsAccurately(w, batches[k])) {
-      advanceAccurately(w, batches[k], dt, count, report);
-      continue;
-    }
     run(w, batches[k], h, count, report);
     makeAgain(w, k);
     finish(w, batches[k], h);
   }
+  advanceTouching(w, report);
   gatherSoft(w);
   checkFinite(w, report);
 }

@@ -45,6 +45,7 @@ class SmallSteps {
 
  private:
   struct Batch;
+  struct Trial;
   static void clear(Batch& batch);
   struct Impl;
   std::unique_ptr<Impl> impl_;

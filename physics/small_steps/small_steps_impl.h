@@ -12,6 +12,7 @@
 //   fly.cpp           bodies that nothing holds, and those that are about to meet
 //   accurately.cpp    islands that step by an accuracy, and touch nothing
 //   accurately_touching.cpp  and those that touch
+//   close_velocities.cpp     sweeps over their contacts until these change no more
 //   bounce.cpp        restitution
 //   look.cpp          the contacts of a step
 //   again.cpp         steps that joints could not be closed in, with more substeps
@@ -78,6 +79,9 @@ constexpr int kByItself = -2;  // of a body's batch: its island has stepped, by 
 // overlaps, where a push finds its way through a column of five in that many.
 constexpr int kPositionSweeps = 4;
 
+// Contacts are in single precision: of a displacement no less than this part is known.
+constexpr double kKnown = 1e-6;
+
 // What contacts of an island know of joints: there are none; no more than each body's own mass, so
 // that contacts and joints take turns; the articulated mass of some.
 enum class Joined : char { kNot, kTakesTurns, kResponds };
@@ -122,11 +126,29 @@ struct SmallSteps::Batch {
   std::vector<BodyId> slots;        // the body of each slot
   std::vector<KeptStart> kept;      // of `bodies`, where joints may have to make their step again
   std::vector<char> turned;         // by slot: so far that its rows are to be prepared anew
+  std::vector<int> partOf;          // by slot, where islands step by an accuracy: which of them
 
   bool takesTurns() const { return joined == Joined::kTakesTurns; }
   // More than contacts of rigid bodies.
   bool isMixed() const { return !articulations.empty() || isSoft(); }
   bool isSoft() const { return !deformables.empty() || !softRows.empty(); }
+};
+
+// An island that steps by an accuracy and touches, on its way through a step of the world's.
+struct SmallSteps::Trial {
+  std::size_t batch = 0;       // its bodies and contacts
+  double left = 0, whole = 0;  // of the step; of it, what is tried now [s]
+  int most = 0, columns = 0;   // substeps of that in the last row, and rows, where it starts
+  int steps = 0;               // substeps of the row that was made last
+  bool isLaidOut = false;      // in a batch of its own: lanes are where that has them
+  Tableau tableau;
+  std::vector<double> levers;  // by body
+  double time = 0;             // that an error of velocity lasts: of the step, not of a part of it
+  double extent = 0, error = 0, coarser = 0;  // coarser: by a column less
+  int places = 0, changes = 0;                // bodies that err by too much; contacts that changed
+  int flights = 0;
+  bool hits = false;  // an impact comes next: by itself, and what flies on then flies exactly
+  AccuracyReport told;
 };
 
 // Rows are prepared where the body is now.
@@ -165,19 +187,25 @@ struct SmallSteps::Impl {
   std::vector<Pose> trialNow, trialStart, trialEnd;
   static constexpr int kMostTouchingColumns = 4;  // of 2 at least: one has no estimate
   std::vector<StepChoice> choices;                // by first body of an island that touches
-  struct {                                        // of the batch that steps accurately
-    Tableau tableau;
+  std::vector<Trial> trials;
+  Batch together;  // of some of these
+  enum class Ended : char { kFurther, kRejected, kAccepted };
+  std::vector<Ended> ends;                      // scratch, of a group
+  std::vector<Trial*> pending, waiting, group;  // the same
+  struct {                                      // the same, by body of an island
     std::vector<Pose> pose;
     std::vector<Velocity> velocity;
-    std::vector<double> levers;
-    double time = 0;  // that an error of velocity lasts: of the step, not of a part of it
-    double extent = 0, allowed = 0, error = 0, coarser = 0;  // coarser: by a column less
-    int places = 0;                                          // bodies that err by too much
-    int changes = 0, steps = 0;  // contacts that changed; substeps of the last row
-    // N, by block, lane and point: of the last row, and of the one before.
-    using LaneLoads = std::array<std::array<double, ContactBlock::kPoints>, ContactBlock::kLanes>;
-    std::vector<LaneLoads> loads, coarserLoads;
-  } trial;
+  } reached;
+  // N, by contact and point: of the last row, and of the one before.
+  using PointLoads = std::array<double, ContactBlock::kPoints>;
+  std::vector<PointLoads> rowLoads, coarserLoads;
+  struct Closing {  // of an island: what a sweep has changed, and the largest way [m]
+    bool isOpen = true, closesNow = false;
+    double change = 0, way = 0;
+  };
+  std::vector<Closing> closings;
+  std::vector<ContactLoads> closedLoads;  // by block, of lanes whose islands are closed
+  std::vector<LaneNumbers> closedChanges;
   double now = 0;                     // s, where what is stepped next starts
   std::vector<LaneStart> swept;       // by slot: after the last sweep
   bool known = false;                 // these are those of the world's constraints
@@ -219,28 +247,41 @@ struct SmallSteps::Impl {
   void advanceAccurately(Model& w, AccuracyReport& report);
   bool advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report);
   bool stepsAccurately(const Model& w, const Batch& batch) const;
-  void advanceAccurately(Model& w, Batch& batch, double dt, int count, StepReport& report);
-  double changeOf(const Batch& batch, double& way);
+  double allowedError(const Model& w) const;
+  void advanceTouching(Model& w, StepReport& report);
+  bool isAlike(const Model& w, const Trial& a, const Trial& b) const;
+  bool plan(Model& w, Trial& trial);
+  void tryTogether(Model& w, std::vector<Trial*>& group, StepReport& report);
+  Batch& lanesFor(Model& w, std::span<Trial* const> group);
+  void addRow(Model& w, std::span<Trial* const> group, Batch& batch, int steps, StepReport& report);
+  void addRow(const Model& w, Trial& trial);
+  bool isDone(Model& w, Trial& trial);
+  void conclude(Model& w, std::vector<Trial*>& group, Batch& batch);
+  void finish(const Model& w, const Trial& trial, AccuracyReport& report);
+  void countChanges(std::span<Trial* const> group, const Batch& batch) const;
+  template <class F>
+  static void forEachPart(const Batch& batch, F&& f);
+  void measureChanges(const Batch& batch);
   void watchVelocities(const Model& w, const Batch& batch);
-  void closeVelocities(Model& w, Batch& batch, double h);
+  void closeVelocities(Model& w, Batch& batch);
+  bool closeParts(const Model& w, const Batch& batch);
+  void keepClosed(const Batch& batch);
+  void takeClosed(Batch& batch) const;
   bool givesExactly(const Model& w, const Batch& batch) const;
   void startGiving(const Model& w, Batch& batch);
   void noteGiven(const Model& w, Batch& batch);
   bool giveExactly(const Model& w, Batch& batch);
   static void giveLane(Batch& batch, const ContactBlock& block, const ContactLoads& told, int lane);
   double sizeOf(const Bodies& b, const Batch& batch) const;
-  void begin(const Model& w, const Batch& batch, double dt);
-  void addRow(Model& w, Batch& batch, double whole, int steps, StepReport& report);
-  void tryOut(Model& w, Batch& batch, double whole, StepChoice& choice, int most,
-              StepReport& report);
-  void noteLoads(const Batch& batch, double h);
-  void holdLoads(const Batch& batch);
-  bool opensAtTrial(const Bodies& b, const Batch& batch);
-  int changesIn(const Batch& batch) const;
-  void takeBest(Model& w, const Batch& batch);
+  void begin(const Model& w, Trial& trial);
+  void noteLoads(const Model& w, const Batch& batch);
+  void holdLoads(const Model& w, const Trial& trial);
+  bool opensAtEnd(const Bodies& b, const Batch& batch);
+  void takeBest(Model& w, const Trial& trial);
   void goBack(Bodies& b, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch, std::size_t k);
   void run(Model& w, Batch& batch, double h, int count, StepReport& report);
+  void runSubsteps(Model& w, Batch& batch, double h, int count, StepReport& report);
   void makeRoom(std::size_t bodies);
   void look(Model& w);
   bool lookOnce(Model& w);
@@ -289,7 +330,7 @@ struct SmallSteps::Impl {
   void warmStartContacts(Model& w, Batch& batch);
   void sweepContactPositions(Model& w, Batch& batch, PositionSweep which);
   void sweepContactVelocities(Model& w, Batch& batch, VelocitySweep which);
-  void sweepContactVelocities(Model& w, Batch& batch, int s, double h);
+  void sweepContactVelocities(Model& w, Batch& batch, int s);
   void tellBodies(Model& w, Batch& batch, const JointStage& stage);
   void balanceContacts(Model& w, Batch& batch);
   void displaceBody(Model& w, BodyId i);
@@ -316,16 +357,16 @@ struct SmallSteps::Impl {
   void renew(const Model& w, const Batch& batch, ContactBlock& block) const;
   void renewTurned(Model& w, Batch& batch);
   void takeOver(Model& w, Batch& batch);
-  void takeOver(const Bodies& b, const ContactBlock& block);
+  void takeOver(const Bodies& b, const ContactBlock& block, int l);
   double sagOf(BodyId root) const;
-  void weighMotion(const Model& w, const Batch& batch, double h);
+  void weighMotion(const Model& w, const Batch& batch);
   struct Weighed {  // a contact, of what its island is weighed by
     BodyId root = kWorldBody;
     double change = 0, energy = 0, load = 0, sag = 0, drawn = 0, carried = 0;
   };
   std::vector<std::array<Weighed, ContactBlock::kLanes>> weighed;  // scratch, by block
-  Weighed weigh(const Model& w, const ContactBlock& block, int l, double h) const;
-  void weighContacts(Model& w, const Batch& batch, double h);
+  Weighed weigh(const Model& w, const ContactBlock& block, int l) const;
+  void weighContacts(Model& w, const Batch& batch);
   void askJoints(const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
   void askDeformables(Model& w, const Batch& batch, double h);
@@ -342,7 +383,7 @@ struct SmallSteps::Impl {
   bool isOpen(const Bodies& b, const Batch& batch) const;
   double gapAfter(const Model& w, const Batch& batch, double time);
   double flyToTouch(Model& w, const Batch& batch, double most);
-  void rest(Batch& batch);
+  void rest(const Batch& batch);
   void finish(Model& w, Batch& batch, double h);
   void advance(Model& w, StepReport& report);
   void learnLoads(Model& w);
@@ -454,6 +495,18 @@ void SmallSteps::Impl::forEachLane(const Batch& batch, F&& f) {
       const auto found =
           std::lower_bound(batch.contacts.begin(), batch.contacts.end(), block.contact[l]);
       f(block, l, static_cast<int>(found - batch.contacts.begin()));
+    }
+  }
+}
+
+// f(block, lane, place of its island in the batch) of every lane that has a contact.
+template <class F>
+void SmallSteps::Impl::forEachPart(const Batch& batch, F&& f) {
+  for (std::size_t i = 0; i < batch.blocks.size(); ++i) {
+    const ContactBlock& block = batch.blocks[i];
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
+      f(i, l, batch.partOf[block.bodyA[l] > 0 ? block.bodyA[l] : block.bodyB[l]]);
     }
   }
 }

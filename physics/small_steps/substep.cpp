@@ -233,7 +233,7 @@ void SmallSteps::Impl::balanceContacts(Model& w, Batch& batch) {
 }
 
 // The s-th of a substep.
-void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, int s, double h) {
+void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, int s) {
   profileScope("contact");
   const bool isLast = s + 1 == batch.sweeps, closes = isLast && !batch.isMixed();
   if (learning) {
@@ -241,7 +241,7 @@ void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, int s, dou
   } else {
     if (closes) watchVelocities(w, batch);
     sweepContactVelocities(w, batch, {.first = s == 0, .last = isLast});
-    if (closes) closeVelocities(w, batch, h);
+    if (closes) closeVelocities(w, batch);
   }
   profileScope("direct");
 }
@@ -301,7 +301,7 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   }
   for (int s = 0; s < batch.sweeps; ++s) {
     if (count > 0) {
-      sweepContactVelocities(w, batch, s, h);
+      sweepContactVelocities(w, batch, s);
       if (isBalanced(w, batch, s + 1)) break;
       if (!isMixed) continue;
       if (inLanes) {

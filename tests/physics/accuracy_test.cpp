@@ -508,6 +508,26 @@ TEST(Accuracy, OfAHeapIsNotChased) {
   EXPECT_LT(sum.rejected, sum.accepted / 5) << sum.accepted;
 }
 
+// Islands that make as many substeps make them side by side, each at its own moments, and sweeps go
+// on until the last of them is closed: none knows of the others.
+TEST(Accuracy, OfOneIslandDoesNotMoveAByteOfAnother) {
+  const auto tumbling = [](int count) {
+    World world = onFloor(1e-2, Friction{}.staticCoefficient);
+    for (int i = 0; i < count; ++i) {
+      BodyDef box;
+      box.shape = Box{Vec3(0.5, 0.25, 0.2)};
+      box.pose.x = Vec3(2 * i, 0.3 + 0.03 * i, 0);
+      const BodyId id = world.add(box);
+      world.setVelocity(id, {Vec3(0.3, 0, 0.1 * i), Vec3(1 + i, 0.5 * i, 2)});
+    }
+    return after(world, 1.5);
+  };
+  const std::vector<Pose> alone = tumbling(1), among = tumbling(20);
+  const std::size_t box = alone.size() - 1;
+  EXPECT_EQ((alone[box].x - among[box].x).norm(), 0);
+  EXPECT_TRUE(alone[box].q.coeffs() == among[box].q.coeffs());
+}
+
 // What rests is left as the default leaves it.
 TEST(Accuracy, LeavesAStackAlone) {
   const auto stack = [](std::optional<double> accuracy) {
