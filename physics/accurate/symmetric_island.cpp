@@ -127,6 +127,7 @@ void SymmetricStep::set(const IslandState& state, const Surroundings& world,
     }
     isMade_ = true;
     first_ = present_;
+    hasStepped_ = false;
   } else {
     put(state, trial.start);
   }
@@ -192,6 +193,7 @@ bool SymmetricStep::project(const IslandState& state, double tolerance, const Su
   turnInertia();
   stop(0);
   first_ = present_;
+  hasStepped_ = false;
   return closed;
 }
 
@@ -216,7 +218,10 @@ void SymmetricStep::takeSpins(IslandState& state) const {
   });
 }
 
-void SymmetricStep::restart() { present_ = first_; }
+void SymmetricStep::restart() {
+  if (hasStepped_) present_ = first_;
+  hasStepped_ = false;
+}
 
 // `set` makes the rest anew, of the same pose.
 void SymmetricStep::archive(Archive& a) {

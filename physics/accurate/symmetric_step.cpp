@@ -233,6 +233,7 @@ bool SymmetricStep::meetsLimit(const Surroundings& world, const TrialPoses& tria
 
 bool SymmetricStep::step(double h, double tolerance, const Surroundings& world,
                          const TrialPoses& trial) {
+  hasStepped_ = true;
   put(present_.state, trial.start);
   begin(h, world);
   guess(h);

@@ -150,6 +150,7 @@ class SymmetricStep {
   bool isMade_ = true;       // rows and factor are there; false after its bytes were read
   std::shared_ptr<const JointTopology> topology_;
   Present present_, first_;
+  bool hasStepped_ = false;  // from first_
   RowSystem all_;  // with the forces
   CrossSystem across_;
   std::vector<Vec3> error_, lambda_;
