@@ -27,6 +27,11 @@ class StepChoice {
   void reject(double step, double error, double allowed);
   // `coarser`: the error of one column less.
   void accept(double step, double error, double coarser, double allowed, double time);
+  // What rests is resolved by any step.
+  void rest() {
+    resolves_ = true;
+    lost_ = 0;
+  }
   // A step that is kept, whatever it errs by. `lost`: that, where no step resolves the motion.
   void giveUp(double lost) {
     resolves_ = false;

@@ -151,7 +151,7 @@ class SymmetricStep {
   std::shared_ptr<const JointTopology> topology_;
   Present present_, first_;
   bool hasStepped_ = false;  // from first_
-  RowSystem all_;  // with the forces
+  RowSystem all_;            // with the forces
   CrossSystem across_;
   std::vector<Vec3> error_, lambda_;
   std::vector<IslandRow> ahead_;  // of joints, where the step ends

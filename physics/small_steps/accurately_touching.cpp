@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/base/rotation.h"
 #include "physics/model/factors.h"
 #include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps_impl.h"
@@ -134,7 +135,7 @@ void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
   trial.left = trial.time = w.settings.dt;
   trial.extent = sizeOf(w.bodies, batch);
   trial.flights = 0;
-  trial.hits = trial.isLaidOut = false;
+  trial.hits = trial.isLaidOut = trial.stirs = false;
   trial.told = {};
   trial.levers.clear();
   for (const BodyId i : batch.bodies) {
@@ -150,6 +151,38 @@ constexpr int kMostPlaces = 4;
 
 }  // namespace
 
+// The largest way of its points in this step, by how fast they are now; and `present`, by where
+// they are now: over its size.
+double SmallSteps::Impl::wayOf(const Model& w, const Trial& trial, bool present) const {
+  const Batch& batch = batches[trial.batch];
+  double most = 0;
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    const BodyId i = batch.bodies[k];
+    const Velocity& v = w.bodies.velocity[i];
+    most = std::max(most, trial.time * (v.v.norm() + trial.levers[k] * v.w.norm()));
+    if (!present) continue;
+    const Pose &now = w.bodies.pose[i], &start = batch.kept[k].pose;
+    const double turn = logarithm(now.q * start.q.conjugate()).norm();
+    most = std::max(most, (now.x - start.x).norm() + trial.levers[k] * turn);
+  }
+  return most / trial.extent;
+}
+
+// What moves by less than a step may err by errs by less, whatever its substeps: one row does, and
+// its way is its error. Its contacts are to stand where they touch, or the row's substeps tell how
+// deep they are.
+bool SmallSteps::Impl::mayRest(const Model& w, const Trial& trial) const {
+  if (trial.stirs || trial.hits || !(wayOf(w, trial, false) <= allowedError(w))) return false;
+  const auto isNone = [](double load) { return load == 0; };
+  const auto stands = [&](int contact) {
+    const KeptContact& c = contacts[contact];
+    return std::all_of(c.lambda.begin(), c.lambda.end(), isNone) ||
+           !std::all_of(c.held.begin(), c.held.end(), isNone);
+  };
+  const Batch& batch = batches[trial.batch];
+  return std::all_of(batch.contacts.begin(), batch.contacts.end(), stands);
+}
+
 // What it tries next; as long as nothing touches it flies before that. False: its step is made.
 bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
@@ -163,10 +196,11 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
     ++trial.flights;
   }
   if (!(trial.left > 0)) return false;
-  const double next = trial.hits ? 0 : choice.next(trial.left, dt);
+  trial.rests = mayRest(w, trial);
+  const double next = trial.hits ? 0 : trial.rests ? trial.left : choice.next(trial.left, dt);
   const double wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
   trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
-  trial.columns = choice.lost() > 0 ? 1 : choice.columns();
+  trial.columns = trial.rests || choice.lost() > 0 ? 1 : choice.columns();
   trial.most =
       std::max(trial.columns, static_cast<int>(std::ceil(batch.substeps * trial.whole / dt)));
   keepStart(w, batch);
@@ -259,7 +293,8 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
   StepChoice& choice = choices[batch.bodies.front()];
   const double dt = w.settings.dt, allowed = allowedError(w);
-  const bool isLost = trial.changes > kMostPlaces, isKnown = trial.columns > 1;
+  const bool isLost = trial.changes > kMostPlaces;
+  const bool isKnown = trial.columns > 1 || trial.rests;
   const bool isSmall = isKnown && trial.error <= allowed;
   const bool isFew = trial.places <= kMostPlaces && !isLost;
   if (!isSmall && trial.whole > kLeastPart * dt && isFew) {
@@ -274,11 +309,13 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   }
   if (!isSmall) {
     choice.giveUp(isLost ? trial.error : 0);
+  } else if (trial.rests) {
+    choice.rest();
   } else if (!trial.hits) {  // a jump is no smoother in shorter substeps
     takeBest(w, trial);
     choice.accept(trial.whole, trial.error, trial.coarser, allowed, dt);
   }
-  if (isSmall) trial.told.order = std::max(trial.told.order, choice.columns());
+  if (isSmall) trial.told.order = std::max(trial.told.order, trial.rests ? 1 : choice.columns());
   ++trial.told.accepted;
   trial.told.least = trial.told.least > 0 ? std::min(trial.told.least, trial.whole) : trial.whole;
   trial.told.estimate += trial.error;
@@ -287,19 +324,30 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   return true;
 }
 
+// What its rows err by. True: it goes on with one more column.
+bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
+  StepChoice& choice = choices[batches[trial.batch].bodies.front()];
+  if (trial.rests) {
+    trial.error = wayOf(w, trial, true);
+    trial.rests = trial.changes == 0 && trial.error <= allowedError(w);
+    trial.stirs = !trial.rests;
+  } else if (trial.columns == 1) {  // no step resolved the last one, and the default's is all of it
+    trial.error = choice.lost();
+  } else if (trial.changes > 0) {
+    trial.error = std::max(trial.error, trial.tableau.gain(trial.extent, trial.time, trial.levers));
+  } else {
+    return trial.error > allowedError(w) && choice.extend();
+  }
+  return false;
+}
+
 // Of the group remain those that go on with one more column.
 void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& batch) {
   ends.clear();
   bool asks = false;
   for (Trial* trial : group) {
     const Batch& own = batches[trial->batch];
-    StepChoice& choice = choices[own.bodies.front()];
-    if (trial->columns == 1) {  // no step resolved the last one, and the default's is all of it
-      trial->error = choice.lost();
-    } else if (trial->changes > 0) {
-      trial->error =
-          std::max(trial->error, trial->tableau.gain(trial->extent, trial->time, trial->levers));
-    } else if (trial->error > allowedError(w) && choice.extend()) {
+    if (goesOn(w, *trial)) {
       ends.push_back(Ended::kFurther);
       continue;
     }
@@ -313,7 +361,7 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
   });
   for (std::size_t part = 0; part < group.size(); ++part) {
     if (ends[part] != Ended::kAccepted) continue;
-    holdLoads(w, *group[part]);
+    if (group[part]->columns > 1) holdLoads(w, *group[part]);
     batch.joints.finish(w.kinds, group[part]->whole / group[part]->steps);
   }
   if (asks) ask(w, batch, w.settings.dt / batch.substeps);

@@ -27,7 +27,7 @@ void ContactLoads::giveLane(ContactBlock& block, int l) const {
 
 ContactLoads loadsOf(const ContactBlock& block) {
   ContactLoads loads;
-  const auto copy = [](const float (&from)[kLanes], float (&to)[kLanes]) {
+  const auto copy = [](const float(&from)[kLanes], float(&to)[kLanes]) {
     std::copy_n(from, kLanes, to);
   };
   for (int k = 0; k < block.points; ++k) copy(block.point[k].lambda, loads.point[k]);

@@ -147,6 +147,7 @@ struct SmallSteps::Trial {
   double extent = 0, error = 0, coarser = 0;  // coarser: by a column less
   int places = 0, changes = 0;                // bodies that err by too much; contacts that changed
   int flights = 0;
+  bool rests = false, stirs = false;  // it is tried as what rests; it did not
   bool hits = false;  // an impact comes next: by itself, and what flies on then flies exactly
   AccuracyReport told;
 };
@@ -255,7 +256,10 @@ struct SmallSteps::Impl {
   Batch& lanesFor(Model& w, std::span<Trial* const> group);
   void addRow(Model& w, std::span<Trial* const> group, Batch& batch, int steps, StepReport& report);
   void addRow(const Model& w, Trial& trial);
+  double wayOf(const Model& w, const Trial& trial, bool present) const;
+  bool mayRest(const Model& w, const Trial& trial) const;
   bool isDone(Model& w, Trial& trial);
+  bool goesOn(const Model& w, Trial& trial);
   void conclude(Model& w, std::vector<Trial*>& group, Batch& batch);
   void finish(const Model& w, const Trial& trial, AccuracyReport& report);
   void countChanges(std::span<Trial* const> group, const Batch& batch) const;

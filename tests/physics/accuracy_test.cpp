@@ -528,6 +528,22 @@ TEST(Accuracy, OfOneIslandDoesNotMoveAByteOfAnother) {
   EXPECT_TRUE(alone[box].q.coeffs() == among[box].q.coeffs());
 }
 
+// What moves by less than a step may err by needs no second row to know what it errs by.
+TEST(Accuracy, OfWhatRestsTakesNoMoreThanTheDefault) {
+  const auto iterationsOf = [](std::optional<double> accuracy) {
+    World world = onFloor(accuracy, Friction{}.staticCoefficient);
+    for (int i = 0; i < 3; ++i) {
+      BodyDef box;
+      box.shape = Box{Vec3(0.5, 0.25, 0.25)};
+      box.pose.x = Vec3(i, 0.125, 0);
+      world.add(box);
+    }
+    after(world, 0.5);
+    return world.step().iterations;
+  };
+  EXPECT_LE(iterationsOf(1e-2), iterationsOf(std::nullopt));
+}
+
 // What rests is left as the default leaves it.
 TEST(Accuracy, LeavesAStackAlone) {
   const auto stack = [](std::optional<double> accuracy) {
