@@ -16,7 +16,7 @@ constexpr std::uint32_t kSee64 = 0xffffffff;  // the number stands in the 64-bit
 constexpr int kVersion = 45, kDate = 0x21;    // that has them; 1980-01-01
 
 inline void put(std::string& to, std::uint64_t number, int bytes) {
-  for (int i = 0; i < bytes; ++i) to += static_cast<char>(number >> 8 * i);
+  for (int i = 0; i < bytes; ++i, number >>= 8) to += static_cast<char>(number);
 }
 
 inline std::uint64_t number(const std::string& from, std::size_t at, int bytes) {

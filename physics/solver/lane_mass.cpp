@@ -1,6 +1,8 @@
 #include "physics/solver/lane_mass.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace physics {
 
@@ -27,6 +29,9 @@ LaneMass laneMassOf(const JointMass& mass) {
   const double l22 = third > least ? std::sqrt(third) : LaneMass::kUnturned;
   const double entries[6] = {l00, l10, l20, l11, l21, l22};
   for (int k = 0; k < 6; ++k) lane.root[k] = static_cast<float>(entries[k]);
+  for (const int k : {0, 3, 5}) {  // that of a body too heavy for single precision is no zero
+    lane.root[k] = std::max(lane.root[k], std::numeric_limits<float>::min());
+  }
   return lane;
 }
 

@@ -1,12 +1,14 @@
 // The default method: what holds without a word about methods.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <random>
 
 #include "physics/base/rotation.h"
 #include "physics/make/chain.h"
 #include "physics/solver/contact_block.h"
+#include "physics/solver/lane_mass.h"
 #include "physics/world.h"
 #include "tests/physics/stage.h"
 
@@ -90,6 +92,14 @@ void expectSameAlone(int count, F&& build) {
   run(alone, 120);
   run(accompanied, 120);
   for (int k = 0; k < count; ++k) expectSameBytes(alone, i + k, accompanied, j + k);
+}
+
+// Its turns are seen, as those of what nothing turns are.
+TEST(LaneMass, OfABodyTooHeavyForSinglePrecisionHasAnInverse) {
+  JointMass mass;
+  mass.inertia = 1e-90 * Mat3::Identity();
+  const LaneInverse inverse = inverseOf(laneMassOf(mass));
+  for (const double entry : inverse.entries) EXPECT_TRUE(std::isfinite(entry)) << entry;
 }
 
 // What happens in one island cannot change a byte in another.
