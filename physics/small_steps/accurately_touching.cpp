@@ -329,7 +329,7 @@ bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
   StepChoice& choice = choices[batches[trial.batch].bodies.front()];
   if (trial.rests) {
     trial.error = wayOf(w, trial, true);
-    trial.rests = trial.changes == 0 && trial.error <= allowedError(w);
+    trial.rests = trial.error <= allowedError(w);
     trial.stirs = !trial.rests;
   } else if (trial.columns == 1) {  // no step resolved the last one, and the default's is all of it
     trial.error = choice.lost();
