@@ -279,6 +279,7 @@ void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepRep
   for (Trial* trial : group) trial->tableau.clear(batches[trial->batch].bodies.size());
   for (int first = 1, last = columns; !group.empty(); first = ++last) {
     Batch& batch = lanesFor(w, group);
+    batch.closes = columns > 1;  // so that rows are told from each other
     for (int row = first; row <= last; ++row) {
       addRow(w, group, batch, (most * row + columns - 1) / columns, report);
     }

@@ -107,6 +107,7 @@ struct SmallSteps::Batch {
   Joined joined = Joined::kNot;  // in every island of it
   bool isDeep = false;           // it has overlaps that the push speed limits
   bool isAgain = false;          // another attempt of what too few substeps took apart
+  bool closes = false;           // sweeps go on until contacts are closed
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
   JointPacks joints;                // of these articulations
