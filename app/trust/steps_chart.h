@@ -1,6 +1,7 @@
 // The steps that islands choose by the accuracy, over time.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <vector>
@@ -31,7 +32,7 @@ class StepsChart {
   struct Told {       // in one frame
     double time = 0;  // that it advanced by [s]
     int accepted = 0, rejected = 0;
-    double mean() const { return time / accepted; }
+    double mean() const { return time / std::max(accepted, 1); }  // what flies does so in one go
   };
   friend void archive(physics::Archive& a, Told& told);
   using Frames = std::map<int, Told>;
