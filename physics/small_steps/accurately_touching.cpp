@@ -17,6 +17,10 @@
 namespace physics {
 namespace {
 
+constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
+// Of a step, each at its moment: what has more is no motion to follow.
+constexpr int kMostPlaces = 4;
+
 bool slides(const KeptContact& c, double along, double normal) {
   constexpr double kOnCone = 1 - 1e-5;  // but for single precision
   return normal > 0 && along >= kOnCone * c.friction.dynamicCoefficient * normal;
@@ -89,8 +93,7 @@ void SmallSteps::Impl::holdLoads(const Model& w, const Trial& trial) {
   if (trial.changes > 0) return;
   for (const int contact : batches[trial.batch].contacts) {
     KeptContact& c = contacts[contact];
-    const auto isNone = [](double load) { return load == 0; };
-    if (!std::all_of(c.held.begin(), c.held.end(), isNone)) continue;
+    if (c.isHeld()) continue;
     const PointLoads &load = rowLoads[contact], &coarser = coarserLoads[contact];
     double sum = 0, difference = 0;
     for (int k = 0; k < c.count; ++k) {
@@ -117,7 +120,7 @@ bool SmallSteps::Impl::opensAtEnd(const Bodies& b, const Batch& batch) {
 // contacts hold there: what extrapolates does not know that nothing passes a surface.
 void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
   if (trial.changes > 0) return;
-  if (!(trial.tableau.gain(trial.extent, trial.time, trial.levers) > kKnown)) return;
+  if (!(trial.tableau.gain(trial.extent, w.settings.dt, trial.levers) > kKnown)) return;
   const Batch& batch = batches[trial.batch];
   reached.pose.resize(batch.bodies.size());
   reached.velocity.resize(batch.bodies.size());
@@ -132,7 +135,7 @@ void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
 // At the start of its step.
 void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
-  trial.left = trial.time = w.settings.dt;
+  trial.left = w.settings.dt;
   trial.extent = sizeOf(w.bodies, batch);
   trial.flights = 0;
   trial.hits = trial.isLaidOut = trial.stirs = false;
@@ -143,27 +146,17 @@ void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
   }
 }
 
-namespace {
-
-constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
-// Of a step, each at its moment: what has more is no motion to follow.
-constexpr int kMostPlaces = 4;
-
-}  // namespace
-
-// The largest way of its points in this step, by how fast they are now; and `present`, by where
-// they are now: over its size.
-double SmallSteps::Impl::wayOf(const Model& w, const Trial& trial, bool present) const {
+// The largest way of its points from where they are kept, and in this step by how fast they are
+// now: over its size.
+double SmallSteps::Impl::wayOf(const Model& w, const Trial& trial) const {
   const Batch& batch = batches[trial.batch];
   double most = 0;
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
-    const BodyId i = batch.bodies[k];
-    const Velocity& v = w.bodies.velocity[i];
-    most = std::max(most, trial.time * (v.v.norm() + trial.levers[k] * v.w.norm()));
-    if (!present) continue;
-    const Pose &now = w.bodies.pose[i], &start = batch.kept[k].pose;
+    const Pose &now = w.bodies.pose[batch.bodies[k]], &start = batch.kept[k].pose;
+    const Velocity& v = w.bodies.velocity[batch.bodies[k]];
     const double turn = logarithm(now.q * start.q.conjugate()).norm();
-    most = std::max(most, (now.x - start.x).norm() + trial.levers[k] * turn);
+    most = std::max({most, (now.x - start.x).norm() + trial.levers[k] * turn,
+                     w.settings.dt * (v.v.norm() + trial.levers[k] * v.w.norm())});
   }
   return most / trial.extent;
 }
@@ -172,12 +165,9 @@ double SmallSteps::Impl::wayOf(const Model& w, const Trial& trial, bool present)
 // its way is its error. Its contacts are to stand where they touch, or the row's substeps tell how
 // deep they are.
 bool SmallSteps::Impl::mayRest(const Model& w, const Trial& trial) const {
-  if (trial.stirs || trial.hits || !(wayOf(w, trial, false) <= allowedError(w))) return false;
-  const auto isNone = [](double load) { return load == 0; };
+  if (trial.stirs || trial.hits || !(wayOf(w, trial) <= allowedError(w))) return false;
   const auto stands = [&](int contact) {
-    const KeptContact& c = contacts[contact];
-    return std::all_of(c.lambda.begin(), c.lambda.end(), isNone) ||
-           !std::all_of(c.held.begin(), c.held.end(), isNone);
+    return !contacts[contact].isLoaded() || contacts[contact].isHeld();
   };
   const Batch& batch = batches[trial.batch];
   return std::all_of(batch.contacts.begin(), batch.contacts.end(), stands);
@@ -196,6 +186,7 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
     ++trial.flights;
   }
   if (!(trial.left > 0)) return false;
+  keepStart(w, batch);
   trial.rests = mayRest(w, trial);
   const double next = trial.hits ? 0 : trial.rests ? trial.left : choice.next(trial.left, dt);
   const double wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
@@ -203,7 +194,6 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   trial.columns = trial.rests || choice.lost() > 0 ? 1 : choice.columns();
   trial.most =
       std::max(trial.columns, static_cast<int>(std::ceil(batch.substeps * trial.whole / dt)));
-  keepStart(w, batch);
   return true;
 }
 
@@ -268,7 +258,7 @@ void SmallSteps::Impl::addRow(const Model& w, Trial& trial) {
   trial.coarser = trial.error;
   trial.places = 0;
   if (trial.tableau.rows() == 1) return;
-  trial.error = trial.tableau.difference(trial.extent, trial.time, trial.levers, allowedError(w),
+  trial.error = trial.tableau.difference(trial.extent, w.settings.dt, trial.levers, allowedError(w),
                                          &trial.places);
 }
 
@@ -279,7 +269,8 @@ void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepRep
   for (Trial* trial : group) trial->tableau.clear(batches[trial->batch].bodies.size());
   for (int first = 1, last = columns; !group.empty(); first = ++last) {
     Batch& batch = lanesFor(w, group);
-    batch.closes = columns > 1;  // so that rows are told from each other
+    batch.closes = columns > 1 && !batch.isMixed();  // so that rows are told from each other
+    closings.resize(group.size());
     for (int row = first; row <= last; ++row) {
       addRow(w, group, batch, (most * row + columns - 1) / columns, report);
     }
@@ -329,13 +320,14 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
 bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
   StepChoice& choice = choices[batches[trial.batch].bodies.front()];
   if (trial.rests) {
-    trial.error = wayOf(w, trial, true);
+    trial.error = wayOf(w, trial);
     trial.rests = trial.error <= allowedError(w);
     trial.stirs = !trial.rests;
   } else if (trial.columns == 1) {  // no step resolved the last one, and the default's is all of it
     trial.error = choice.lost();
   } else if (trial.changes > 0) {
-    trial.error = std::max(trial.error, trial.tableau.gain(trial.extent, trial.time, trial.levers));
+    trial.error =
+        std::max(trial.error, trial.tableau.gain(trial.extent, w.settings.dt, trial.levers));
   } else {
     return trial.error > allowedError(w) && choice.extend();
   }

@@ -36,10 +36,9 @@ void SmallSteps::Impl::measureChanges(const Batch& batch) {
 }
 
 // What the next sweep over contacts alone may be the last one after, where it changes no more.
-void SmallSteps::Impl::watchVelocities(const Model& w, const Batch& batch) {
-  if (!stepsAccurately(w, batch) || !batch.closes) return;
+void SmallSteps::Impl::watchVelocities(const Batch& batch) {
   swept.resize(batch.motions.size());
-  closings.assign(*std::max_element(batch.partOf.begin(), batch.partOf.end()) + 1, Closing{});
+  std::fill(closings.begin(), closings.end(), Closing{});
   measureChanges(batch);
 }
 
@@ -91,7 +90,6 @@ void SmallSteps::Impl::takeClosed(Batch& batch) const {
 
 void SmallSteps::Impl::closeVelocities(Model& w, Batch& batch) {
   constexpr int kMost = 16;  // what has not settled by then the estimate tells
-  if (!stepsAccurately(w, batch) || !batch.closes) return;
   bool isDone = closeParts(w, batch), isKept = false;
   for (int s = 0; s < kMost && !isDone; ++s) {
     const bool closed = std::any_of(closings.begin(), closings.end(),

@@ -295,7 +295,7 @@ void SmallSteps::Impl::takeOver(const Bodies& b, const ContactBlock& block, int 
   }
   c.twist = block.twist[l];
   c.step = h;
-  if (std::all_of(c.lambda.begin(), c.lambda.end(), [](double x) { return x == 0; })) c.held = {};
+  if (!c.isLoaded()) c.held = {};
 }
 
 }  // namespace physics

@@ -17,6 +17,7 @@ void SmallSteps::clear(Batch& batch) {
   batch.motions.clear();
   batch.masses.clear();
   batch.slots.clear();
+  batch.closes = false;
 }
 
 // Bodies that constraints join make an articulation; points, and what has a factor that would fill

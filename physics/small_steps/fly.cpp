@@ -73,8 +73,8 @@ double SmallSteps::Impl::gapAfter(const Model& w, const Batch& batch, double tim
 // how long.
 double SmallSteps::Impl::flyToTouch(Model& w, const Batch& batch, double most) {
   constexpr double kKnownGap = 1e-13;  // m: 1e3 roundings of places some 1 m away
-  // Where in a step a gap that closes and opens again is seen; and a guard: secants that halve (of
-  // order 1.44) find a simple zero among doubles in a dozen.
+  // Where in a step a gap that closes and opens again is seen; and a guard: secants that halve are
+  // of order 1.44.
   constexpr int kLooks = 4, kMostSecants = 40;
   const Bodies& b = w.bodies;
   const auto isDriven = [&](BodyId i) { return b.motion[i] == Motion::kKinematic; };

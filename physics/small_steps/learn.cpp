@@ -51,7 +51,7 @@ void SmallSteps::Impl::forEachLane(const Model& w, Batch& batch, Visit&& visit) 
 // After so many sweeps over contacts alone: no load of any island changes by more than numbers in
 // single precision do where sweeps overshoot. Each island keeps what it carries once that is so.
 bool SmallSteps::Impl::isBalanced(const Model& w, Batch& batch, int sweeps) {
-  constexpr int kRound = 16;  // a look at all loads costs about one sweep: a sixteenth of the time
+  constexpr int kRound = 16;         // a look visits all loads, as a sweep does: one in so many
   constexpr float kSettled = 1e-6f;  // of the largest load
   static_assert(kSweeps % kRound == 0);
   if (!learning || batch.isMixed() || sweeps % kRound != 0) return false;

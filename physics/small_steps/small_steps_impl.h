@@ -107,7 +107,7 @@ struct SmallSteps::Batch {
   Joined joined = Joined::kNot;  // in every island of it
   bool isDeep = false;           // it has overlaps that the push speed limits
   bool isAgain = false;          // another attempt of what too few substeps took apart
-  bool closes = false;           // sweeps go on until contacts are closed
+  bool closes = false;           // sweeps go on until contacts are closed, of each of its parts
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
   JointPacks joints;                // of these articulations
@@ -143,8 +143,7 @@ struct SmallSteps::Trial {
   int steps = 0;               // substeps of the row that was made last
   bool isLaidOut = false;      // in a batch of its own: lanes are where that has them
   Tableau tableau;
-  std::vector<double> levers;  // by body
-  double time = 0;             // that an error of velocity lasts: of the step, not of a part of it
+  std::vector<double> levers;                 // by body
   double extent = 0, error = 0, coarser = 0;  // coarser: by a column less
   int places = 0, changes = 0;                // bodies that err by too much; contacts that changed
   int flights = 0;
@@ -257,7 +256,7 @@ struct SmallSteps::Impl {
   Batch& lanesFor(Model& w, std::span<Trial* const> group);
   void addRow(Model& w, std::span<Trial* const> group, Batch& batch, int steps, StepReport& report);
   void addRow(const Model& w, Trial& trial);
-  double wayOf(const Model& w, const Trial& trial, bool present) const;
+  double wayOf(const Model& w, const Trial& trial) const;
   bool mayRest(const Model& w, const Trial& trial) const;
   bool isDone(Model& w, Trial& trial);
   bool goesOn(const Model& w, Trial& trial);
@@ -267,7 +266,7 @@ struct SmallSteps::Impl {
   template <class F>
   static void forEachPart(const Batch& batch, F&& f);
   void measureChanges(const Batch& batch);
-  void watchVelocities(const Model& w, const Batch& batch);
+  void watchVelocities(const Batch& batch);
   void closeVelocities(Model& w, Batch& batch);
   bool closeParts(const Model& w, const Batch& batch);
   void keepClosed(const Batch& batch);

@@ -235,11 +235,11 @@ void SmallSteps::Impl::balanceContacts(Model& w, Batch& batch) {
 // The s-th of a substep.
 void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, int s) {
   profileScope("contact");
-  const bool isLast = s + 1 == batch.sweeps, closes = isLast && !batch.isMixed();
+  const bool isLast = s + 1 == batch.sweeps, closes = isLast && batch.closes;
   if (learning) {
     balanceContacts(w, batch);
   } else {
-    if (closes) watchVelocities(w, batch);
+    if (closes) watchVelocities(batch);
     sweepContactVelocities(w, batch, {.first = s == 0, .last = isLast});
     if (closes) closeVelocities(w, batch);
   }

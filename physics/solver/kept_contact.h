@@ -23,11 +23,15 @@ struct KeptContact {
   // Impulses times the step, on a: along the normal, at the last substep and a step earlier; of
   // friction at the centre (world), and of its twist about the normal.
   std::array<double, Manifold::kMaxPoints> lambda{}, before{};
-  // Force [N] that the points carried where the world began.
+  // Force [N] about which it gives way: that the points carried where the world began, or that two
+  // rows of an accuracy's step agreed on.
   std::array<double, Manifold::kMaxPoints> held{};
   Vec3 tangential = Vec3::Zero();
   double twist = 0;
   std::array<ContactPoint, Manifold::kMaxPoints> points;
+
+  bool isLoaded() const { return lambda != std::array<double, Manifold::kMaxPoints>{}; }
+  bool isHeld() const { return held != std::array<double, Manifold::kMaxPoints>{}; }
 };
 
 // What the collider found, with the multipliers of the points that go on. Both are sorted by their

@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "physics/world/measure.h"
 #include "tests/physics/gravity.h"
+#include "tests/physics/stage.h"
 
 namespace physics {
 namespace {
@@ -514,10 +515,8 @@ TEST(Accuracy, OfOneIslandDoesNotMoveAByteOfAnother) {
   const auto tumbling = [](int count) {
     World world = onFloor(1e-2, Friction{}.staticCoefficient);
     for (int i = 0; i < count; ++i) {
-      BodyDef box;
-      box.shape = Box{Vec3(0.5, 0.25, 0.2)};
-      box.pose.x = Vec3(2 * i, 0.3 + 0.03 * i, 0);
-      const BodyId id = world.add(box);
+      const BodyId id =
+          testing::addBody(world, Box{Vec3(0.5, 0.25, 0.2)}, Vec3(2 * i, 0.3 + 0.03 * i, 0));
       world.setVelocity(id, {Vec3(0.3, 0, 0.1 * i), Vec3(1 + i, 0.5 * i, 2)});
     }
     return after(world, 1.5);
@@ -532,12 +531,8 @@ TEST(Accuracy, OfOneIslandDoesNotMoveAByteOfAnother) {
 TEST(Accuracy, OfWhatRestsTakesNoMoreThanTheDefault) {
   const auto iterationsOf = [](std::optional<double> accuracy) {
     World world = onFloor(accuracy, Friction{}.staticCoefficient);
-    for (int i = 0; i < 3; ++i) {
-      BodyDef box;
-      box.shape = Box{Vec3(0.5, 0.25, 0.25)};
-      box.pose.x = Vec3(i, 0.125, 0);
-      world.add(box);
-    }
+    for (int i = 0; i < 3; ++i)
+      testing::addBody(world, Box{Vec3(0.5, 0.25, 0.25)}, Vec3(i, 0.125, 0));
     after(world, 0.5);
     return world.step().iterations;
   };
