@@ -55,8 +55,8 @@ std::string planText(const Plan& plan);     // at most 100 columns
 //         rest_speeds, made_anew}: per step, physics/model/report.h
 //   effects [{name, part, on, left_out, why, count, unit, rows, bytes, share, within, without,
 //             stays}] in a fixed order; share is null where it is not measured by itself
-//   islands [{count, first, bodies, flies, trees, loops, joints, ropes, meshes, links, contacts,
-//             soft_contacts, substeps, sweeps, asked_by, accuracy {size, tolerance, steps,
+//   islands [{count, first, bodies, flies, trees, loops, joints, ropes, cloths, meshes, links,
+//             contacts, soft_contacts, substeps, sweeps, asked_by, accuracy {size, tolerance, steps,
 //             rejected, order, shortest_step, error_estimate}}]: physics/small_steps/island_plan.h;
 //   accuracy is null where it does not step by one;
 //   empty: of other methods

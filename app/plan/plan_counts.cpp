@@ -51,9 +51,9 @@ auto sameOf(const PlannedIslands& island) {
   const physics::IslandPlan& p = island.plan;
   const physics::AccuracyReport steps =
       island.steps ? island.steps->steps : physics::AccuracyReport{};
-  return std::tuple(p.bodies, p.flies, p.trees, p.loops, p.joints, p.ropes, p.meshes, p.links,
-                    p.contacts, p.softContacts, p.substeps, p.sweeps, p.law, steps.accepted,
-                    steps.order);
+  return std::tuple(p.bodies, p.flies, p.trees, p.loops, p.joints, p.ropes, p.cloths, p.meshes,
+                    p.links, p.contacts, p.softContacts, p.substeps, p.sweeps, p.law,
+                    steps.accepted, steps.order);
 }
 
 using Islands = std::map<physics::BodyId, PlannedIslands>;

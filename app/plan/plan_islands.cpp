@@ -62,6 +62,7 @@ std::string lineOf(const PlannedIslands& island) {
   if (p.loops > 0) add(many(p.loops, "loop", "loops"));
   if (p.joints > 0) add(many(p.joints, "joint at once", "joints at once"));
   if (p.ropes > 0) add(many(p.ropes, "rope at once", "ropes at once"));
+  if (p.cloths > 0) add(many(p.cloths, "mesh with links at once", "meshes with links at once"));
   if (p.meshes > 0) add(many(p.meshes, "mesh swept", "meshes swept"));
   if (p.contacts > 0) add(many(p.contacts, "contact", "contacts"));
   if (p.softContacts > 0) add(fmt::format("{} of points", p.softContacts));
@@ -112,6 +113,7 @@ Json islandsJson(const Plan& plan) {
                    {"loops", p.loops},
                    {"joints", p.joints},
                    {"ropes", p.ropes},
+                   {"cloths", p.cloths},
                    {"meshes", p.meshes},
                    {"links", p.links},
                    {"contacts", p.contacts},

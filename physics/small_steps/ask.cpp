@@ -16,8 +16,6 @@ constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 1.0 / kLeastSwept;
 // On the average of the load that is 0.38 of a cube's radius over (n/2)^2, n/2 being how often the
 // contacts carry the weight of an island: a quarter of it.
 constexpr double kLargestDrawn = 0.1;
-constexpr double kLargestTurn =
-    0.05;  // rad, of what is solved at once: its rows are taken as straight
 // Of its weight, what a body with joints may carry while contacts and joints take turns: a round
 // brings about as much as it weighs up to the joints, and a substep has three.
 constexpr double kMostCarried = 4;
@@ -34,7 +32,7 @@ int substepsFor(int present, double times) {
 
 // What goes with h, of pieces that turn by so much in a step [rad].
 int substepsForTurn(double turn) {
-  return static_cast<int>(std::min<double>(std::ceil(turn / kLargestTurn), kMostSubsteps));
+  return static_cast<int>(std::min<double>(std::ceil(turn / kStraightTurn), kMostSubsteps));
 }
 
 }  // namespace

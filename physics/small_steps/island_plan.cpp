@@ -14,7 +14,9 @@ void SmallSteps::Impl::countParts(const Batch& batch, std::map<BodyId, IslandPla
   }
   for (const int k : batch.deformables) {
     IslandPlan& plan = plans[islands[deformables[k].bodies().front()]];
-    ++(deformables[k].isDirect() ? plan.ropes : plan.meshes);
+    ++(deformables[k].isDirect()          ? plan.ropes
+       : deformables[k].hasPointsAtOnce() ? plan.cloths
+                                          : plan.meshes);
     plan.links += static_cast<int>(deformables[k].size());
   }
 }

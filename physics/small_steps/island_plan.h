@@ -22,7 +22,8 @@ struct IslandPlan {
   bool flies = false;            // nothing holds it: one body, exactly, in one go
   int trees = 0, loops = 0;      // of joints, limits, forces: each solved at once
   int joints = 0;                // constraints in those
-  int ropes = 0, meshes = 0;     // of points: solved at once, swept
+  // Of points: solved at once; their links at once and the rest swept; swept.
+  int ropes = 0, cloths = 0, meshes = 0;
   int links = 0;                 // constraints in those
   int contacts = 0;              // pairs of bodies that meet or may
   int softContacts = 0;          // points and links that may meet a body

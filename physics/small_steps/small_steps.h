@@ -4,7 +4,8 @@
 // substeps of h as its load asks for. A substep is
 //   predict      u = h v + h^2 M^-1 f
 //   positions    joints as one block, contacts once (soft, as stiff as h resolves), joints again
-//                ropes at once, meshes of points swept, with the contacts of their points
+//                ropes at once, of cloth its links at once and the rest swept, soft bodies
+//                swept, with the contacts of their points
 //   displace     X <- X + u
 //   velocities   the same rows with no error to take back: joints, contacts and friction, joints
 // From v0 the velocities change the kinetic energy by f(lambda) = lambda^T J v0 + lambda^T A

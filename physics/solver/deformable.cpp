@@ -43,9 +43,9 @@ Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
   for (const auto& [a, b] : joined) {
     entries.push_back({std::max(place[a], place[b]), std::min(place[a], place[b])});
   }
-  SparseFactor factor;
-  factor.layOut(entries);
-  for (int i = 0; i < count; ++i) mesh.fill += std::pow(factor.lengthOf(i) + 1, 2) / count;
+  SparsePattern pattern;
+  pattern.layOut(entries);
+  mesh.fill = pattern.fill();
   return mesh;
 }
 
@@ -72,10 +72,19 @@ Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
   });
   std::sort(bodies_.begin(), bodies_.end());
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
-  if (direct) factor_ = std::make_unique<MeshFactor>();
+  if (direct) {
+    factor_ = std::make_unique<MeshFactor>();
+  } else {
+    layOutPoints(kinds, masses);
+  }
 }
 
 void Deformable::evaluate(const JointStage& stage, bool first) {
+  evaluateOnce(stage, first);
+  for (int step = 1; isBent() && step < kMostSteps; ++step) evaluateOnce(stage, false);
+}
+
+void Deformable::evaluateOnce(const JointStage& stage, bool first) {
   for (const BodyId i : bodies_) {
     displace(stage.pose[i], stage.moved[i].u, stage.moved[i].theta);
   }
@@ -108,20 +117,25 @@ void Deformable::evaluateRows(const JointStage& stage, bool first) {
     swept.lambda = clamped<C>(swept, swept.constant);
     give(item, swept, swept.lambda, moved);
   };
+  kinds_ = &kinds;
   if (factor_) takeMasses(masses);
   forEachRow(rows_, kinds, prepare);
   if (first) forEachRow(rows_, kinds, load);
-  kinds_ = &kinds;
+  if (!points_) return;
+  if (first) points_->isLost = false;
+  factorizePoints(true, masses);
+  solvePoints(true, moved);
 }
 
 void Deformable::sweepPositions(std::span<Displacement> moved) {
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if (!swept.swept) return;
+    if (!swept.swept || isHeld(swept.isAtOnce)) return;
     change(item, swept,
            typename Set<C>::Vector(swept.constant + along(item, swept, moved) +
                                    swept.alpha * swept.lambda),
            moved);
   });
+  if (points_) solvePoints(true, moved);
 }
 
 void Deformable::prepareVelocities(const Kinds& kinds, const Configuration& at,
@@ -134,13 +148,17 @@ void Deformable::prepareVelocities(const Kinds& kinds, const Configuration& at,
     swept.swept = swept.row.active;
     if (swept.swept) invert<C>(swept, respond(item, swept, masses), 0);
   });
+  if (points_) factorizePoints(false, masses);
 }
 
 void Deformable::sweepVelocities(std::span<Displacement> moved) {
   if (factor_) return solveVelocities(moved);
+  if (points_) solvePoints(false, moved);
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if (swept.swept) change(item, swept, along(item, swept, moved), moved);
+    if (!swept.swept || isHeld(swept.isAtOnce)) return;
+    change(item, swept, along(item, swept, moved), moved);
   });
+  if (points_) solvePoints(false, moved);
 }
 
 double Deformable::strain(const Kinds& kinds, const Configuration& at) {

@@ -1,6 +1,7 @@
 // Ropes, cloth and soft bodies: points that constraints join, of any number at a time. Where the
-// factor of their rows has little fill, as a rope's, they are solved at once, else swept,
-// projected Gauss-Seidel; both over the same
+// factor of their rows has little fill, as a rope's, they are solved at once; else swept, projected
+// Gauss-Seidel, but for what holds points to each other where that has, as the links of a cloth:
+// they are solved at once in each sweep. All over the same
 //   (J M^-1 J^T + alpha) lambda = -(c + J (u - u_0))
 // as an articulation's: evaluated at X + u_0, where the substep was predicted to end. They start
 // from lambda = 0: the directions of a mesh turn too quickly for the last ones to be worth having.
@@ -13,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/solver/block_factor.h"
 #include "physics/solver/soft_rows.h"
 #include "physics/solver/sparse_factor.h"
 #include "physics/solver/swept_row.h"
@@ -34,6 +36,14 @@ inline constexpr double kMostFill = 400, kMostFillOfPoints = 16;
 // Keeps the factor regular where rows repeat each other: relative to the row's own A.
 inline constexpr double kRedundancy = 1e-7;
 
+// What a piece between two points may turn by in a step of Newton's [rad]: further on, the rows
+// that were evaluated before say nothing of where it ends.
+inline constexpr double kFarTurn = 0.5;
+// By so much rows are taken as straight, [rad]: what is off is of second order.
+inline constexpr double kStraightTurn = 0.05;
+inline constexpr int kMostSteps = 20;  // of Newton's; two to four are enough, but where a rope is
+                                       // caught
+
 // M + K and the rows as one symmetric matrix, for d, the change of u, and -lambda (of velocities,
 // where K = 0, its change):
 //   M + K   J^T
@@ -47,6 +57,24 @@ struct MeshFactor {
   bool stale = true;
 };
 
+// How a piece along the unit vector d resists being turned while it pulls:
+//   pull/length (1 - d d^T)
+Mat3 turningStiffness(const Vec3& d, double pull, double length);
+
+// Of what is else swept: what holds its points, without lambda, which alpha > 0 eliminates,
+//   (M + K + J^T alpha^-1 J) d = -J^T alpha^-1 c
+// by blocks of points. Without K a cloth that hangs trembles. Where nothing can hold them all, as
+// of a cloth pulled longer than it is, or they start far off, d would turn pieces too far: then
+// they are swept, one at a time, for that substep.
+struct PointFactor {
+  BlockFactor factor;
+  std::vector<Mat3> own, rows;  // its blocks: of points, and J^T alpha^-1 J + K of rows
+  std::vector<double> inverse;  // mass, by place
+  std::vector<Vec3> change;     // d
+  double turn = 0;              // that d takes a piece by, at the most [rad]
+  bool isLost = false;          // in this substep
+};
+
 class Deformable {
  public:
   // `refs`: its constraints, in the table's order.
@@ -55,6 +83,7 @@ class Deformable {
 
   std::span<const BodyId> bodies() const { return bodies_; }
   bool isDirect() const { return factor_ != nullptr; }
+  bool hasPointsAtOnce() const { return points_ != nullptr; }
   std::size_t size() const { return size_; }
 
   // Evaluates all rows where `moved` takes the bodies from the start of the substep: the first time
@@ -77,7 +106,17 @@ class Deformable {
   void goOn(const Kinds& kinds);  // from the multipliers that stand there
 
  private:
+  void evaluateOnce(const JointStage& stage, bool first);
   void evaluateRows(const JointStage& stage, bool first);
+  void layOutPoints(const Kinds& kinds, std::span<const InverseMass> masses);
+  void findImplied(const Kinds& kinds);
+  double turnByChange();
+  bool isBent() const;
+  template <class C>
+  Vec3 apartBy(const SweptRow<C>& swept) const;
+  bool isHeld(bool atOnce) const { return atOnce && !points_->isLost; }
+  void factorizePoints(bool positions, std::span<const JointMass> masses);
+  void solvePoints(bool positions, std::span<Displacement> moved);
   void takeMasses(std::span<const JointMass> masses);
   int placeOf(BodyId body) const;  // in bodies_; -1: it does not move
   void takeContacts(std::span<SoftRow> rows, double push);
@@ -101,12 +140,13 @@ class Deformable {
   bool holdAtBounds(std::span<Displacement> moved);
 
   SweptRows rows_;
-  std::unique_ptr<MeshFactor> factor_;  // none: swept
-  std::vector<int> unknown_;            // by place in bodies_: the first of its 3 or 6
-  std::vector<bool> turns_;             // by place: it has 6
-  int unknowns_ = 0;                    // of bodies
-  bool repeats_ = false;                // rows are more than bodies can move against each other
-  std::vector<Mat3> inertia_;           // by place
+  std::unique_ptr<MeshFactor> factor_;   // none: swept
+  std::unique_ptr<PointFactor> points_;  // of what is swept; none: nothing of it is solved at once
+  std::vector<int> unknown_;             // by place in bodies_: the first of its 3 or 6
+  std::vector<bool> turns_;              // by place: it has 6
+  int unknowns_ = 0;                     // of bodies
+  bool repeats_ = false;                 // rows are more than bodies can move against each other
+  std::vector<Mat3> inertia_;            // by place
   std::vector<double> mass_;
   std::vector<Displacement> from_;             // by place: u_0
   std::vector<std::array<BodyId, 2>> pieces_;  // straight ones, between two points

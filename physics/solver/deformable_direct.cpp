@@ -9,7 +9,6 @@ using namespace swept;
 
 namespace {
 
-constexpr int kMostSteps = 20;   // of Newton's; two to four are enough, but where a rope is caught
 constexpr int kMostRounds = 30;  // of finding which rows are at a bound
 
 // What a row that may be held is off by, at what the bodies have moved by.
@@ -194,7 +193,6 @@ bool Deformable::chooseAgain(std::span<const Displacement> moved) {
 // evaluated before, say nothing of where it ends.
 double Deformable::shareOfStep(std::span<const Pose> pose,
                                std::span<const Displacement> moved) const {
-  constexpr double kFar = 0.5;  // rad
   double most = 0;
   const auto change = [&](BodyId body) -> Vec3 {
     const int place = placeOf(body);
@@ -205,7 +203,7 @@ double Deformable::shareOfStep(std::span<const Pose> pose,
     const double squared = now.squaredNorm();
     if (squared > 0) most = std::max(most, now.cross(by).norm() / squared);
   }
-  return most > kFar ? kFar / most : 1;
+  return most > kFarTurn ? kFarTurn / most : 1;
 }
 
 void Deformable::takePositions(double share, std::span<Displacement> moved) {

@@ -9,17 +9,6 @@ namespace physics {
 
 using namespace swept;
 
-namespace {
-
-// How a piece along the unit vector d resists being turned while it pulls:
-//   pull/length (1 - d d^T)
-Mat3 turningStiffness(const Vec3& d, double pull, double length) {
-  if (!(pull > 0) || !(length > 0)) return Mat3::Zero();
-  return pull / length * (Mat3::Identity() - d * d.transpose());
-}
-
-}  // namespace
-
 int Deformable::placeOf(BodyId body) const {
   const auto found = std::lower_bound(bodies_.begin(), bodies_.end(), body);
   if (found == bodies_.end() || *found != body) return -1;

@@ -19,10 +19,12 @@ struct SweptRow {
   using Vector = typename Set<C>::Vector;
   using Matrix = Eigen::Matrix<double, C::kRows, C::kRows>;
   int item = 0;
-  bool swept = false;   // it has anything to say, and can move something
-  bool isLoad = false;  // a force that does not fall off
-  double own = 0;       // mean of A's diagonal
-  bool held = false;    // at a bound, while the others are solved for
+  bool swept = false;                   // it has anything to say, and can move something
+  bool isLoad = false;                  // a force that does not fall off
+  double own = 0;                       // mean of A's diagonal
+  bool held = false;                    // at a bound, while the others are solved for
+  bool isAtOnce = false;                // solved with the others that hold points, not swept
+  std::array<int, 2> place = {-1, -1};  // then: of its bodies, -1: it does not move
   Evaluated<C> row;
   Response<C> response;                                       // M^-1 J^T
   Matrix inverse = Matrix::Zero(), alpha = Matrix::Zero();    // (A + alpha)^-1

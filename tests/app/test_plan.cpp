@@ -131,7 +131,8 @@ TEST(Plan, NamesIslandsAndWhatTheirSubstepsAreAskedForBy) {
   const app::Plan dolls = planOf("ragdoll_pile");  // they fall, and hardly one has met another
   EXPECT_GT(dolls.islands.at(0).count, 25);
   EXPECT_EQ(dolls.islands.at(0).plan.trees, 1);
-  EXPECT_EQ(planOf("cloth_hang").islands.at(0).plan.meshes, 1);
+  EXPECT_EQ(planOf("cloth_hang").islands.at(0).plan.cloths, 1);
+  EXPECT_EQ(planOf("soft_cube_drop").islands.at(0).plan.meshes, 1);
   EXPECT_EQ(planOf("rope_swing").islands.at(0).plan.ropes, 1);
   EXPECT_EQ(planOf("bridge").islands.at(0).plan.loops, 1);
   EXPECT_TRUE(planOf("spinning_tops").islands.at(0).plan.flies);

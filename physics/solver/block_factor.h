@@ -1,0 +1,32 @@
+// L L^T of a sparse positive definite matrix of 3 x 3 blocks, each symmetric, whose values change
+// often and its pattern seldom: laying it out allocates, factorizing and solving do not. Blocks on
+// the diagonal are taken apart as well, and not inverted: where what holds is 1e7 times as stiff as
+// the mass is heavy, an inverse has lost all that the mass says.
+#pragma once
+
+#include "physics/base/types.h"
+#include "physics/solver/sparse_pattern.h"
+
+namespace physics {
+
+class BlockFactor {
+ public:
+  void layOut(std::span<const std::array<int, 2>> entries);
+  int size() const { return pattern_.size(); }
+  double fill() const { return pattern_.fill(); }
+
+  void begin();  // of giving values, which follow in the order of the entries
+  void give(const Mat3& block) { values_[pattern_.slotOf(next_++)] += block; }
+  void factorize();
+  void solve(std::span<Vec3> x);  // from the right-hand side, in place
+
+ private:
+  SparsePattern pattern_;
+  std::vector<Mat3> values_;
+  std::size_t next_ = 0;
+  std::vector<Mat3> lower_, inverse_;  // of L; of its diagonal, inverse: triangular
+  std::vector<Mat3> row_;              // scratch: zero but within a row of factorize
+  std::vector<Vec3> solved_;
+};
+
+}  // namespace physics
