@@ -119,12 +119,16 @@ Run runOf(const StudyCase& study, const scenes::StudyMethod& method, const scene
     run.limits.frames = study.sampleCount();
     return run;
   }
-  run.set.push_back(fmt::format("simulation.fps={}", study.fps * key.steps));
+  const int fps = study.fps * key.steps;
+  if (key.accuracy > 0) {  // and nothing else: what a user says
+    run.set.push_back(fmt::format("simulation={{ fps = {}, accuracy = {} }}", fps, key.accuracy));
+    return run;
+  }
+  run.set.push_back(fmt::format("simulation.fps={}", fps));
   run.set.push_back(fmt::format("simulation.substeps={}", key.substeps));
   if (key.iterations > 0) {
     run.set.push_back(fmt::format("simulation.iterations={}", key.iterations));
   }
-  if (key.accuracy > 0) run.set.push_back(fmt::format("simulation.accuracy={}", key.accuracy));
   return run;
 }
 

@@ -162,12 +162,12 @@ double SmallSteps::Impl::lengthOf(const Bodies& b, const KeptContact& c) const {
 int SmallSteps::Impl::leastOf(const Model& w, BodyId i) const {
   if (w.settings.substeps) return *w.settings.substeps;
   const BodyId root = islands[i];
-  // A step that knows what it errs by needs no four for safety.
-  const bool isKnown = w.settings.accuracy && choices[root].resolves();
-  const bool isSwept =
-      held[root] == Held::kTouching && joined[root] != Joined::kTakesTurns && !isKnown;
   const bool isPoint = std::holds_alternative<PointShape>(w.bodies.shape[i]);
-  return isSwept || isPoint || deformableOf[i] >= 0 ? kLeastSwept : kLeastSolved;
+  if (isPoint || deformableOf[i] >= 0) return kLeastSwept;
+  // A step that knows what it errs by needs no more for safety.
+  if (w.settings.accuracy && choices[root].resolves()) return 1;
+  const bool isSwept = held[root] == Held::kTouching && joined[root] != Joined::kTakesTurns;
+  return isSwept ? kLeastSwept : kLeastSolved;
 }
 
 // Islands by constraints and contacts, and what each asks for.
