@@ -68,8 +68,8 @@ Mat3 turningStiffness(const Vec3& d, double pull, double length);
 // they are swept, one at a time, for that substep.
 struct PointFactor {
   BlockFactor factor;
-  std::vector<Mat3> own, rows;  // its blocks: of points, and J^T alpha^-1 J + K of rows
-  std::vector<double> inverse;  // mass, by place
+  std::vector<Mat3> rows;       // J^T alpha^-1 J + K of each
+  std::vector<double> inverse;  // 1/m, by place
   std::vector<Vec3> change;     // d
   double turn = 0;              // that d takes a piece by, at the most [rad]
   bool isLost = false;          // in this substep
@@ -87,7 +87,8 @@ class Deformable {
   std::size_t size() const { return size_; }
 
   // Evaluates all rows where `moved` takes the bodies from the start of the substep: the first time
-  // in it, or again, for another step of Newton's.
+  // in it, or again, for another step of Newton's; of what it solves at once, as often as that
+  // turns its pieces.
   void evaluate(const JointStage& stage, bool first);
   // Of one that is solved at once: all of the position stage, with the normal rows of the contacts
   // of its points; an overlap is taken back by at most `push` [m].

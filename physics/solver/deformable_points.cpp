@@ -22,6 +22,16 @@ bool holdsBothWays(const C& item) {
   return isEquality(item);
 }
 
+// f(row, column, sign) of what a row adds to the matrix: on its two places and between them.
+template <class F>
+void forEachBlock(const std::array<int, 2>& place, F&& f) {
+  const auto [less, more] = std::minmax(place[0], place[1]);
+  for (const int at : place) {
+    if (at >= 0) f(at, at, 1);
+  }
+  if (less >= 0) f(more, less, -1);
+}
+
 // What a row gives way by, inverse.
 template <class C>
 typename SweptRow<C>::Matrix stiffnessOf(const SweptRow<C>& swept) {
@@ -41,7 +51,7 @@ Mat3 turningStiffness(const Vec3& d, double pull, double length) {
 void Deformable::layOutPoints(const Kinds& kinds, std::span<const InverseMass> masses) {
   std::vector<std::array<int, 2>> entries;
   for (int k = 0; k < static_cast<int>(bodies_.size()); ++k) entries.push_back({k, k});
-  const std::size_t alone = entries.size();
+  bool any = false;  // between two that move
   const auto isPoint = [&](BodyId i) { return !(masses[i].m > 0) || masses[i].inertia.isZero(0); };
   forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if constexpr (Pair<C>) {
@@ -49,11 +59,13 @@ void Deformable::layOutPoints(const Kinds& kinds, std::span<const InverseMass> m
       swept.isAtOnce = holdsBothWays(item) && isPoint(a) && isPoint(b);
       if (!swept.isAtOnce) return;
       swept.place = {placeOf(a), placeOf(b)};
-      const auto [less, more] = std::minmax(swept.place[0], swept.place[1]);
-      if (less >= 0) entries.push_back({more, less});
+      forEachBlock(swept.place, [&](int row, int column, double) {
+        entries.push_back({row, column});
+        any = any || row != column;
+      });
     }
   });
-  if (entries.size() > alone) {
+  if (any) {
     points_ = std::make_unique<PointFactor>();
     points_->factor.layOut(entries);
     if (points_->factor.fill() <= kMostFill) return findImplied(kinds);
@@ -63,9 +75,8 @@ void Deformable::layOutPoints(const Kinds& kinds, std::span<const InverseMass> m
              [&]<class C>(const C&, SweptRow<C>& swept, double) { swept.isAtOnce = false; });
 }
 
-// A total length that the links along it add up to is held by them.
+// A total length that the links along it add up to, within what they give way by, is held by them.
 void Deformable::findImplied(const Kinds& kinds) {
-  constexpr double kRounding = 1e-9;
   std::map<std::array<int, 2>, double> lengths;
   const auto keyOf = [&](BodyId a, BodyId b) {
     return std::array<int, 2>{std::min(a, b), std::max(a, b)};
@@ -84,7 +95,7 @@ void Deformable::findImplied(const Kinds& kinds) {
         if (found == lengths.end()) return;
         sum += found->second;
       }
-      swept.isAtOnce = sum <= (1 + kRounding) * item.length;
+      swept.isAtOnce = sum <= (1 + kRedundancy) * item.length;
     }
   });
 }
@@ -92,12 +103,12 @@ void Deformable::findImplied(const Kinds& kinds) {
 // M + J^T alpha^-1 J and, of positions, K.
 void Deformable::factorizePoints(bool positions, std::span<const JointMass> masses) {
   PointFactor& f = *points_;
-  f.own.clear();
   f.rows.clear();
   f.inverse.clear();
+  f.factor.begin();
   for (const BodyId i : bodies_) {
     f.inverse.push_back(masses[i].inverse);
-    f.own.push_back(Mat3::Identity() / masses[i].inverse);
+    f.factor.give(Mat3::Identity() / masses[i].inverse);
   }
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if constexpr (Pair<C>) {
@@ -112,20 +123,8 @@ void Deformable::factorizePoints(bool positions, std::span<const JointMass> mass
           block += turningStiffness(j.transpose(), pull, length);
         }
       }
-      const auto [a, b] = swept.place;
-      if (a >= 0) f.own[a] += block;
-      if (b >= 0) f.own[b] += block;
+      forEachBlock(swept.place, [&](int, int, double sign) { f.factor.give(sign * block); });
       f.rows.push_back(block);
-    }
-  });
-  f.factor.begin();
-  for (const Mat3& block : f.own) f.factor.give(block);
-  std::size_t at = 0;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
-    if constexpr (Pair<C>) {
-      if (!swept.isAtOnce) return;
-      const Mat3& block = f.rows[at++];
-      if (swept.place[0] >= 0 && swept.place[1] >= 0) f.factor.give(-block);
     }
   });
   f.factor.factorize();
