@@ -72,6 +72,7 @@ Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
   });
   std::sort(bodies_.begin(), bodies_.end());
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
+  solved_ = bodies_;
   if (direct) {
     factor_ = std::make_unique<MeshFactor>();
   } else {

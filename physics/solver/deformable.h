@@ -91,7 +91,8 @@ class Deformable {
   // turns its pieces.
   void evaluate(const JointStage& stage, bool first);
   // Of one that is solved at once: all of the position stage, with the normal rows of the contacts
-  // of its points; an overlap is taken back by at most `push` [m].
+  // of its points and the bodies that touch them: what presses on a light one in several places
+  // moves it once. An overlap is taken back by at most `push` [m].
   void solvePositions(const JointStage& stage, double push, std::span<SoftRow> rows);
   void sweepPositions(std::span<Displacement> moved);
   // At the end of the substep.
@@ -119,9 +120,9 @@ class Deformable {
   void factorizePoints(bool positions, std::span<const JointMass> masses);
   void solvePoints(bool positions, std::span<Displacement> moved);
   void takeMasses(std::span<const JointMass> masses);
-  int placeOf(BodyId body) const;  // in bodies_; -1: it does not move
+  bool isOwn(BodyId body) const;
+  int placeOf(BodyId body) const;  // in solved_; -1: it does not move
   void takeContacts(std::span<SoftRow> rows, double push);
-  double givesOf(const SoftRow& row) const;
   void aimAtPositions(std::span<const Displacement> moved);
   template <class C>
   typename Set<C>::Vector changeAlong(const C& item, const SweptRow<C>& swept) const;
@@ -143,7 +144,7 @@ class Deformable {
   SweptRows rows_;
   std::unique_ptr<MeshFactor> factor_;   // none: swept
   std::unique_ptr<PointFactor> points_;  // of what is swept; none: nothing of it is solved at once
-  std::vector<int> unknown_;             // by place in bodies_: the first of its 3 or 6
+  std::vector<int> unknown_;             // by place in solved_: the first of its 3 or 6
   std::vector<bool> turns_;              // by place: it has 6
   int unknowns_ = 0;                     // of bodies
   bool repeats_ = false;                 // rows are more than bodies can move against each other
@@ -156,6 +157,7 @@ class Deformable {
   std::vector<std::array<BodyId, 3>> laid_, found_;
   double push_ = 0;             // overlap taken back in a substep, at the most [m]
   std::vector<BodyId> bodies_;  // those that move, sorted
+  std::vector<BodyId> solved_;  // those, and bodies that touch them: what a factor solves for
   std::size_t size_ = 0;
   const Kinds* kinds_ = nullptr;  // of the last prepare
 };

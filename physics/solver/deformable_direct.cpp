@@ -81,8 +81,8 @@ void Deformable::chooseFree(bool positions, bool first, std::span<const Displace
 void Deformable::aimAtPositions(std::span<const Displacement> moved) {
   MeshFactor& f = *factor_;
   f.right.setZero();
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    const Displacement& m = moved[bodies_[k]];
+  for (std::size_t k = 0; k < solved_.size(); ++k) {
+    const Displacement& m = moved[solved_[k]];
     f.right.segment<3>(unknown_[k]) = -mass_[k] * (m.u - from_[k].u);
     if (turns_[k]) {
       f.right.segment<3>(unknown_[k] + 3) = -(inertia_[k] * (m.theta - from_[k].theta));
@@ -112,7 +112,8 @@ void Deformable::aimAtPositions(std::span<const Displacement> moved) {
     at += C::kRows;
   });
   for (const SoftRow* row : contacts_) {
-    f.right[at] = row->held ? 0 : givesOf(*row) * row->lambda - errorNow(*row, true, moved);
+    f.right[at] =
+        row->held ? 0 : kRedundancy / row->inverse * row->lambda - errorNow(*row, true, moved);
     ++at;
   }
 }
@@ -144,7 +145,7 @@ double Deformable::changeAlong(const SoftRow& row) const {
     sum += (second ? row.along : 1 - row.along) * row.n.dot(d.segment<3>(unknown_[place]));
   }
   const int place = placeOf(row.body);
-  if (place < 0) return sum + bodyGives(row) * (row.next - row.lambda);
+  if (place < 0) return sum;
   sum -= row.n.dot(d.segment<3>(unknown_[place]));
   if (turns_[place]) sum -= row.arm.cross(row.n).dot(d.segment<3>(unknown_[place] + 3));
   return sum;
@@ -208,18 +209,14 @@ double Deformable::shareOfStep(std::span<const Pose> pose,
 
 void Deformable::takePositions(double share, std::span<Displacement> moved) {
   MeshFactor& f = *factor_;
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    moved[bodies_[k]].u += share * f.solution.segment<3>(unknown_[k]);
-    if (turns_[k]) moved[bodies_[k]].theta += share * f.solution.segment<3>(unknown_[k] + 3);
+  for (std::size_t k = 0; k < solved_.size(); ++k) {
+    moved[solved_[k]].u += share * f.solution.segment<3>(unknown_[k]);
+    if (turns_[k]) moved[solved_[k]].theta += share * f.solution.segment<3>(unknown_[k] + 3);
   }
   forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
     if (swept.swept) swept.lambda += share * (swept.next - swept.lambda);
   });
-  for (SoftRow* row : contacts_) {
-    const double change = share * (row->next - row->lambda);
-    row->lambda += change;
-    if (placeOf(row->body) < 0) giveBody(*row, change * row->n, moved);
-  }
+  for (SoftRow* row : contacts_) row->lambda += share * (row->next - row->lambda);
 }
 
 // Of rows that repeat each other what they share grows to 1/kRedundancy of what they disagree by,
@@ -243,10 +240,10 @@ void Deformable::solveProgram(bool first, std::span<const Displacement> moved) {
 }
 
 void Deformable::solvePositions(const JointStage& stage, double push, std::span<SoftRow> rows) {
-  evaluate(stage, true);
   takeContacts(rows, push);
+  evaluate(stage, true);
   from_.clear();
-  for (const BodyId i : bodies_) from_.push_back(stage.moved[i]);
+  for (const BodyId i : solved_) from_.push_back(stage.moved[i]);
   for (int step = 1;; ++step) {
     solveProgram(step == 1, stage.moved);
     const double share = shareOfStep(stage.pose, stage.moved);
@@ -260,9 +257,9 @@ void Deformable::solvePositions(const JointStage& stage, double push, std::span<
 bool Deformable::isClosed(std::span<const Displacement> moved) const {
   constexpr double kClosed = 1e-7;  // its square, what the next step would change, is rounding
   double change = 0, way = 0;
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+  for (std::size_t k = 0; k < solved_.size(); ++k) {
     change = std::max(change, factor_->solution.segment<3>(unknown_[k]).squaredNorm());
-    way = std::max(way, moved[bodies_[k]].u.squaredNorm());
+    way = std::max(way, moved[solved_[k]].u.squaredNorm());
   }
   return change <= kClosed * kClosed * way;
 }
@@ -287,9 +284,9 @@ void Deformable::solveVelocities(std::span<Displacement> moved) {
     solveFactor();
     if (round == kMostRounds || !holdAtBounds(moved)) break;
   }
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    moved[bodies_[k]].u += f.solution.segment<3>(unknown_[k]);
-    if (turns_[k]) moved[bodies_[k]].theta += f.solution.segment<3>(unknown_[k] + 3);
+  for (std::size_t k = 0; k < solved_.size(); ++k) {
+    moved[solved_[k]].u += f.solution.segment<3>(unknown_[k]);
+    if (turns_[k]) moved[solved_[k]].theta += f.solution.segment<3>(unknown_[k] + 3);
   }
   int at = unknowns_;
   forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
@@ -300,9 +297,7 @@ void Deformable::solveVelocities(std::span<Displacement> moved) {
   });
   for (SoftRow* row : contacts_) {
     const double change = -f.solution[at++];
-    if (row->held) continue;
-    row->lambda += change;
-    if (placeOf(row->body) < 0) giveBody(*row, change * row->n, moved);
+    if (!row->held) row->lambda += change;
   }
 }
 

@@ -9,10 +9,14 @@ namespace physics {
 
 using namespace swept;
 
+bool Deformable::isOwn(BodyId body) const {
+  return std::binary_search(bodies_.begin(), bodies_.end(), body);
+}
+
 int Deformable::placeOf(BodyId body) const {
-  const auto found = std::lower_bound(bodies_.begin(), bodies_.end(), body);
-  if (found == bodies_.end() || *found != body) return -1;
-  return static_cast<int>(found - bodies_.begin());
+  const auto found = std::lower_bound(solved_.begin(), solved_.end(), body);
+  if (found == solved_.end() || *found != body) return -1;
+  return static_cast<int>(found - solved_.begin());
 }
 
 void Deformable::takeContacts(std::span<SoftRow> rows, double push) {
@@ -20,8 +24,7 @@ void Deformable::takeContacts(std::span<SoftRow> rows, double push) {
   found_.clear();
   push_ = push;
   for (SoftRow& row : rows) {
-    const bool own = placeOf(row.from) >= 0 || placeOf(row.to) >= 0;
-    if (!own || !(row.inverse > 0)) continue;
+    if (!(isOwn(row.from) || isOwn(row.to)) || !(row.inverse > 0)) continue;
     row.owned = true;
     row.held = !(row.lambda > 0);
     row.lambda = row.next = 0;
@@ -31,11 +34,18 @@ void Deformable::takeContacts(std::span<SoftRow> rows, double push) {
   }
   if (found_ == laid_) return;
   std::swap(found_, laid_);
+  solved_ = bodies_;
+  for (const SoftRow* row : contacts_) {
+    if (row->inverseMass > 0) solved_.push_back(row->body);
+  }
+  std::sort(solved_.begin(), solved_.end());
+  solved_.erase(std::unique(solved_.begin(), solved_.end()), solved_.end());
+  unknown_.clear();
   factor_->factor.forget();
 }
 
 void Deformable::takeMasses(std::span<const JointMass> masses) {
-  const std::size_t count = bodies_.size();
+  const std::size_t count = solved_.size();
   const bool isNew = unknown_.empty();
   unknown_.resize(count);
   turns_.resize(count);
@@ -43,7 +53,7 @@ void Deformable::takeMasses(std::span<const JointMass> masses) {
   mass_.resize(count);
   if (isNew) unknowns_ = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    const JointMass& mass = masses[bodies_[k]];
+    const JointMass& mass = masses[solved_[k]];
     mass_[k] = 1 / mass.inverse;
     if (isNew) {
       turns_[k] = !mass.inertia.isZero(0);
@@ -55,17 +65,10 @@ void Deformable::takeMasses(std::span<const JointMass> masses) {
   factor_->stale = true;
 }
 
-// What a contact gives way by: the part of A of a body that is not of these.
-double Deformable::givesOf(const SoftRow& row) const {
-  const double least = kRedundancy / row.inverse;
-  if (placeOf(row.body) >= 0) return least;
-  return bodyGives(row) + least;
-}
-
 // entry(row, column, value) of the lower triangle, always the same ones in the same order.
 template <class F>
 void Deformable::emit(bool positions, F&& entry) {
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+  for (std::size_t k = 0; k < solved_.size(); ++k) {
     for (int i = 0; i < 3; ++i) {
       entry(unknown_[k] + i, unknown_[k] + i, mass_[k]);
       if (!turns_[k]) continue;
@@ -131,14 +134,13 @@ void Deformable::emit(bool positions, F&& entry) {
       const double share = row->held ? 0 : second ? row->along : 1 - row->along;
       for (int j = 0; j < 3; ++j) entry(at, unknown_[place] + j, share * row->n[j]);
     }
-    // What it does to a body that is not of these: as a compliance.
     const Vec3 lever = row->arm.cross(row->n);
     const int place = placeOf(row->body);
     for (int j = 0; place >= 0 && j < 3; ++j) {
       entry(at, unknown_[place] + j, row->held ? 0 : -row->n[j]);
       if (turns_[place]) entry(at, unknown_[place] + 3 + j, row->held ? 0 : -lever[j]);
     }
-    entry(at, at, row->held ? -1 : -givesOf(*row));
+    entry(at, at, row->held ? -1 : -kRedundancy / row->inverse);
     ++at;
   }
 }

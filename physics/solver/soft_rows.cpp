@@ -15,19 +15,11 @@ Vec3 slipOf(const SoftRow& row, std::span<const Displacement> moved) {
          b.theta.cross(row.arm);
 }
 
-void giveBody(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved) {
-  moved[row.body].u -= row.inverseMass * impulse;
-  moved[row.body].theta -= row.inertia * row.arm.cross(impulse);
-}
-
-double bodyGives(const SoftRow& row) {
-  return row.inverseMass + row.arm.cross(row.n).dot(row.turn);
-}
-
 void giveTo(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved) {
   moved[row.from].u += (row.first * (1 - row.along)) * impulse;
   moved[row.to].u += (row.second * row.along) * impulse;
-  giveBody(row, impulse, moved);
+  moved[row.body].u -= row.inverseMass * impulse;
+  moved[row.body].theta -= row.inertia * row.arm.cross(impulse);
 }
 
 namespace {
@@ -60,11 +52,10 @@ void prepareSoftRows(std::span<const SoftContact> contacts, std::span<const Pose
     row.arm = pointOf(c, pose) - c.radius * row.n - pose[c.body].x;
     row.coefficients = c.friction;
     const Vec3 lever = row.arm.cross(row.n);
-    row.turn = row.inertia * lever;
     const double t = row.along;
     const double link = std::max(row.first * (1 - t) * (1 - t) + row.second * t * t,
                                  kLeastShare * (row.first + row.second));
-    const double a = link + row.inverseMass + lever.dot(row.turn);
+    const double a = link + row.inverseMass + lever.dot(row.inertia * lever);
     row.inverse = a > 1e-300 ? 1 / a : 0;  // else it moves nothing
     row.tangents.col(0) = row.n.unitOrthogonal();
     row.tangents.col(1) = row.n.cross(row.tangents.col(0));

@@ -17,9 +17,9 @@ struct SoftRow {
   BodyId from = 0, to = 0, body = 0;
   double along = 0;                               // t
   double first = 0, second = 0, inverseMass = 0;  // 1/m of from, to, body
-  Vec3 n, arm, turn;                              // I^-1 (r x n)
-  Mat3 inertia;                                   // of body, inverse
-  double inverse = 0;                             // 1/A
+  Vec3 n, arm;
+  Mat3 inertia;        // of body, inverse
+  double inverse = 0;  // 1/A
   double gap = 0, open = 0, lambda = 0, next = 0;
   Eigen::Matrix<double, 3, 2> tangents;
   Eigen::Matrix2d tangentInverse;
@@ -31,12 +31,8 @@ struct SoftRow {
 
 // What p on the soft side moves by against the matter of the body.
 Vec3 slipOf(const SoftRow& row, std::span<const Displacement> moved);
-// What the body moves by along n for an impulse against it: its part of A.
-double bodyGives(const SoftRow& row);
 // Displaces the ends and the body by an impulse on the soft side.
 void giveTo(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved);
-// Displaces the body alone by an impulse on the soft side.
-void giveBody(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved);
 
 // Rows at the present poses, which start from the contacts' multipliers.
 void prepareSoftRows(std::span<const SoftContact> contacts, std::span<const Pose> pose,
