@@ -147,7 +147,7 @@ class Deformable {
   std::vector<int> unknown_;             // by place in solved_: the first of its 3 or 6
   std::vector<bool> turns_;              // by place: it has 6
   int unknowns_ = 0;                     // of bodies
-  bool repeats_ = false;                 // rows are more than bodies can move against each other
+  bool repeats_ = false;                 // rows are more than its bodies can move by in shape
   std::vector<Mat3> inertia_;            // by place
   std::vector<double> mass_;
   std::vector<Displacement> from_;             // by place: u_0

@@ -152,11 +152,14 @@ void Deformable::factorize(bool positions) {
     f.entries.clear();
     emit(positions, [&](int row, int column, double) { f.entries.push_back({row, column}); });
     f.factor.layOut(f.entries);
-    int rows = 0;
+    int rows = 0, own = 0;
     forEachRow(rows_, *kinds_, [&]<class C>(const C&, const SweptRow<C>&, double) {
       if constexpr (!Force<C>) rows += C::kRows;
     });
-    repeats_ = rows > unknowns_ - 6;
+    for (std::size_t k = 0; k < solved_.size(); ++k) {
+      if (isOwn(solved_[k])) own += turns_[k] ? 6 : 3;
+    }
+    repeats_ = rows > own - 6;
     f.right.resize(f.factor.size());
   }
   f.factor.begin();

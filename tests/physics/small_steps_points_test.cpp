@@ -3,6 +3,7 @@
 
 #include "physics/make/cloth.h"
 #include "physics/make/rope.h"
+#include "physics/make/soft_body.h"
 #include "tests/physics/stage.h"
 
 namespace physics::testing {
@@ -215,6 +216,29 @@ TEST(SmallStepsRope, ThrownUpFromTheGroundItFliesAlongTheParabola) {
     // Of first order in substeps of 1/240 s: g h t/2 = 0.01 m.
     EXPECT_NEAR(world.bodies().pose[node].x.y(), height, 0.015);
   }
+}
+
+// Six edges and a volume repeat each other: what they share must not move it as a whole, nor the
+// body that it meets.
+TEST(SmallStepsMesh, ATetrahedronThatMeetsABodyKeepsTheirMomentum) {
+  Settings settings = byDefault(true);
+  settings.gravity.reset();
+  World world(settings);
+  const BodyId box = addBody(world, Box{Vec3(2, 0.2, 2)}, Vec3(0, -0.5, 0), 3);
+  SoftBodyDef def;
+  def.mesh = TetMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}};
+  def.edge = EdgeMatter{Edges::kLinks};
+  def.matter.mass = 4;
+  def.velocity.v = Vec3(0.1, -1, 0);
+  add(world, def);
+  const Vec3 before = measure(world).linearMomentum;
+  double most = 0;
+  for (int step = 0; step < 60; ++step) {
+    world.step();
+    most = std::max(most, (measure(world).linearMomentum - before).norm());
+  }
+  EXPECT_LT(most, 1e-12 * before.norm());
+  EXPECT_LT(world.bodies().velocity[box].v.y(), -0.1);
 }
 
 // Contacts of what rolls are those of the pose that it has.
