@@ -202,17 +202,11 @@ void SmallSteps::Impl::sweepDeformables(Model& w, Batch& batch, double h) {
   const double push = w.settings.contact ? w.settings.contact->maxSeparationSpeed * h : 0;
   const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
   for (const int k : batch.deformables) {
-    if (deformables[k].isDirect()) {
-      deformables[k].solvePositions(stage, push, batch.softRows);
-    } else {
-      deformables[k].evaluate(stage, true);
-    }
+    deformables[k].solvePositions(stage, w.settings.dt, push, batch.softRows);
   }
   warmStart(batch.softRows, moved);
   for (int s = 0; s < kPositionSweeps; ++s) {
-    for (const int k : batch.deformables) {
-      if (!deformables[k].isDirect()) deformables[k].sweepPositions(moved);
-    }
+    for (const int k : batch.deformables) deformables[k].sweepPositions(stage);
     physics::sweepPositions(batch.softRows, push, moved);
   }
 }
@@ -274,11 +268,16 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
   if (count > 0 && batch.isMixed()) toLanes(w, batch);
 }
 
-// Of what is swept one by one.
+// What friction gives to a point of what is solved at once, and what it takes back, is for all of
+// it to bear: that has the last word.
 void SmallSteps::Impl::sweepSoft(Batch& batch) {
   sweepVelocities(batch.softRows, moved);
-  for (const int k : batch.deformables) deformables[k].sweepVelocities(moved);
+  for (const int k : batch.deformables) deformables[k].sweepVelocities(masses, moved);
+  if (batch.softRows.empty()) return;
   sweepVelocities(batch.softRows, moved);
+  for (const int k : batch.deformables) {
+    if (deformables[k].isAtOnce()) deformables[k].sweepVelocities(masses, moved);
+  }
 }
 
 void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
@@ -289,7 +288,7 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   batch.joints.prepareVelocities(stage);
   batch.joints.solveVelocities(stage);
   for (const int k : batch.deformables) {
-    deformables[k].prepareVelocities(w.kinds, {w.bodies.pose, w.bodies.start, h}, masses);
+    deformables[k].prepareVelocities(w.kinds, {w.bodies.pose, w.bodies.start, h}, masses, moved);
   }
   measure(batch.softRows, moved);
   const bool isMixed = batch.isMixed();

@@ -1,7 +1,7 @@
-// L L^T of a sparse positive definite matrix of 3 x 3 blocks, each symmetric, whose values change
-// often and its pattern seldom: laying it out allocates, factorizing and solving do not. Blocks on
-// the diagonal are taken apart as well, and not inverted: where what holds is 1e7 times as stiff as
-// the mass is heavy, an inverse has lost all that the mass says.
+// L L^T of a sparse positive definite matrix of 3 x 3 blocks whose values change often and its
+// pattern seldom: laying it out allocates, factorizing and solving do not. Blocks on the diagonal
+// are taken apart as well, and not inverted: where what holds is 1e7 times as stiff as the mass is
+// heavy, an inverse has lost all that the mass says.
 #pragma once
 
 #include "physics/base/types.h"
@@ -16,17 +16,26 @@ class BlockFactor {
   double fill() const { return pattern_.fill(); }
 
   void begin();  // of giving values, which follow in the order of the entries
-  void give(const Mat3& block) { values_[pattern_.slotOf(next_++)] += block; }
+  void give(const Mat3& block);
   void factorize();
   void solve(std::span<Vec3> x);  // from the right-hand side, in place
+  // Of several right-hand sides, side by side: L is read once for all of them.
+  static constexpr int kSides = 8;
+  using Sides = Eigen::Matrix<double, 3, kSides, Eigen::RowMajor>;  // its rows in registers
+  void solve(std::span<Sides> x);
 
  private:
+  template <class X>
+  void substitute(std::span<X> x, std::vector<X>& solved) const;
+
   SparsePattern pattern_;
-  std::vector<Mat3> values_;
+  std::vector<bool> isTurned_;  // by entry: its column is eliminated before its row
+  std::vector<Mat3> values_;    // of the upper triangle, in the order of elimination
   std::size_t next_ = 0;
   std::vector<Mat3> lower_, inverse_;  // of L; of its diagonal, inverse: triangular
   std::vector<Mat3> row_;              // scratch: zero but within a row of factorize
   std::vector<Vec3> solved_;
+  std::vector<Sides> solvedSides_;
 };
 
 }  // namespace physics

@@ -76,16 +76,11 @@ Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
   if (direct) {
     factor_ = std::make_unique<MeshFactor>();
   } else {
-    layOutPoints(kinds, masses);
+    choosePoints(kinds, masses);
   }
 }
 
 void Deformable::evaluate(const JointStage& stage, bool first) {
-  evaluateOnce(stage, first);
-  for (int step = 1; isBent() && step < kMostSteps; ++step) evaluateOnce(stage, false);
-}
-
-void Deformable::evaluateOnce(const JointStage& stage, bool first) {
   for (const BodyId i : bodies_) {
     displace(stage.pose[i], stage.moved[i].u, stage.moved[i].theta);
   }
@@ -122,44 +117,57 @@ void Deformable::evaluateRows(const JointStage& stage, bool first) {
   if (factor_) takeMasses(masses);
   forEachRow(rows_, kinds, prepare);
   if (first) forEachRow(rows_, kinds, load);
-  if (!points_) return;
-  if (first) points_->isLost = false;
-  factorizePoints(true, masses);
-  solvePoints(true, moved);
+  if (points_) takeStiffness(masses, first);
 }
 
-void Deformable::sweepPositions(std::span<Displacement> moved) {
+void Deformable::solvePositions(const JointStage& stage, double step, double push,
+                                std::span<SoftRow> rows) {
+  if (!factor_ && !points_) return evaluate(stage, true);
+  takeContacts(rows, push);
+  if (factor_) return solveAllPositions(stage);
+  takePressed();
+  solvePointPositions(stage, step);
+}
+
+void Deformable::sweepPositions(const JointStage& stage) {
+  if (factor_) return;
+  bool any = false;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if (!swept.swept || isHeld(swept.isAtOnce)) return;
+    if (!swept.swept || swept.isAtOnce) return;
+    any = true;
     change(item, swept,
-           typename Set<C>::Vector(swept.constant + along(item, swept, moved) +
+           typename Set<C>::Vector(swept.constant + along(item, swept, stage.moved) +
                                    swept.alpha * swept.lambda),
-           moved);
+           stage.moved);
   });
-  if (points_) solvePoints(true, moved);
+  if (points_ && any) solvePoints(true, false, stage.masses, stage.moved);
 }
 
 void Deformable::prepareVelocities(const Kinds& kinds, const Configuration& at,
-                                   std::span<const JointMass> masses) {
+                                   std::span<const JointMass> masses,
+                                   std::span<const Displacement> moved) {
   if (factor_) takeMasses(masses);
+  if (points_) preparePointVelocities(moved);
   forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if (swept.isAtOnce) return;  // as they are
     swept.swept = swept.swept && !givesWay(swept) && !isSlack(swept);
     if (!swept.swept) return;
     item.evaluate(at, swept.row);
     swept.swept = swept.row.active;
     if (swept.swept) invert<C>(swept, respond(item, swept, masses), 0);
   });
-  if (points_) factorizePoints(false, masses);
 }
 
-void Deformable::sweepVelocities(std::span<Displacement> moved) {
+void Deformable::sweepVelocities(std::span<const JointMass> masses, std::span<Displacement> moved) {
   if (factor_) return solveVelocities(moved);
-  if (points_) solvePoints(false, moved);
+  if (points_) solvePoints(false, false, masses, moved);
+  bool any = false;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if (!swept.swept || isHeld(swept.isAtOnce)) return;
+    if (!swept.swept || swept.isAtOnce) return;
+    any = true;
     change(item, swept, along(item, swept, moved), moved);
   });
-  if (points_) solvePoints(false, moved);
+  if (points_ && any) solvePoints(false, false, masses, moved);
 }
 
 double Deformable::strain(const Kinds& kinds, const Configuration& at) {

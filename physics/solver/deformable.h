@@ -1,7 +1,7 @@
 // Ropes, cloth and soft bodies: points that constraints join, of any number at a time. Where the
-// factor of their rows has little fill, as a rope's, they are solved at once; else swept, projected
-// Gauss-Seidel, but for what holds points to each other where that has, as the links of a cloth:
-// they are solved at once in each sweep. All over the same
+// factor of their rows has little fill, as a rope's, they are solved at once; so is what holds
+// points to each other where that alone has, as the links of a cloth; the rest is swept, projected
+// Gauss-Seidel. All over the same
 //   (J M^-1 J^T + alpha) lambda = -(c + J (u - u_0))
 // as an articulation's: evaluated at X + u_0, where the substep was predicted to end. They start
 // from lambda = 0: the directions of a mesh turn too quickly for the last ones to be worth having.
@@ -36,13 +36,19 @@ inline constexpr double kMostFill = 400, kMostFillOfPoints = 16;
 // Keeps the factor regular where rows repeat each other: relative to the row's own A.
 inline constexpr double kRedundancy = 1e-7;
 
+// What the links of a cloth give way by where none is asked for, relative to their own A, in a
+// substep as long as the step. It is a compliance, the same in all substeps: with one that went
+// with their length what is stretched would gain energy where the next one is shorter.
+inline constexpr double kGivesInStep = 1e-8;
+
 // What a piece between two points may turn by in a step of Newton's [rad]: further on, the rows
 // that were evaluated before say nothing of where it ends.
 inline constexpr double kFarTurn = 0.5;
 // By so much rows are taken as straight, [rad]: what is off is of second order.
 inline constexpr double kStraightTurn = 0.05;
-inline constexpr int kMostSteps = 20;  // of Newton's; two to four are enough, but where a rope is
-                                       // caught
+inline constexpr int kMostRounds = 30;  // of finding which rows are at a bound
+inline constexpr int kMostSteps = 20;   // of Newton's; two to four are enough, but where a rope is
+                                        // caught
 
 // M + K and the rows as one symmetric matrix, for d, the change of u, and -lambda (of velocities,
 // where K = 0, its change):
@@ -61,18 +67,44 @@ struct MeshFactor {
 //   pull/length (1 - d d^T)
 Mat3 turningStiffness(const Vec3& d, double pull, double length);
 
-// Of what is else swept: what holds its points, without lambda, which alpha > 0 eliminates,
-//   (M + K + J^T alpha^-1 J) d = -J^T alpha^-1 c
-// by blocks of points. Without K a cloth that hangs trembles. Where nothing can hold them all, as
-// of a cloth pulled longer than it is, or they start far off, d would turn pieces too far: then
-// they are swept, one at a time, for that substep.
+// Of a cloth: what holds its points, with the normal rows of their contacts and the bodies that
+// touch them, without lambda, which alpha > 0 eliminates, by blocks of points, bodies and their
+// turns:
+//   (M + K + J^T alpha^-1 J) d = J^T (lambda - alpha^-1 (c + J (u - u_0) + alpha lambda)) - given
+// In turns with what holds the points, a contact takes from a body no more momentum than its node
+// can have, and the next one takes it from what that gave back: bodies that fall on a taut cloth
+// gained energy.
 struct PointFactor {
+  struct Row {
+    Mat3 stiffness = Mat3::Zero(), turning = Mat3::Zero();  // J^T alpha^-1 J + K; K
+    Vec3 given = Vec3::Zero();  // impulse on its first body, in this substep
+    Vec3 next = Vec3::Zero();   // and the next one, of d = 0
+  };
+  struct Pressed {
+    SoftRow* row = nullptr;
+    std::array<int, 4> place = {-1, -1, -1, -1};  // of its points, its body, that body's turn
+  };
+  // A total length that the links do not imply, beside the blocks.
+  struct Length {
+    std::vector<int> place;         // of its bodies
+    std::vector<Mat3> turning;      // K of its pieces
+    std::vector<Vec3> given, push;  // impulses on its bodies in this substep, and the next ones
+    std::vector<Vec3> answer;       // of the factor to J^T; empty: not asked yet
+    double gives = 0;               // alpha
+    double next = 0;                // change of lambda
+    bool held = true;               // slack
+  };
   BlockFactor factor;
-  std::vector<Mat3> rows;       // J^T alpha^-1 J + K of each
-  std::vector<double> inverse;  // 1/m, by place
-  std::vector<Vec3> change;     // d
-  double turn = 0;              // that d takes a piece by, at the most [rad]
-  bool isLost = false;          // in this substep
+  std::vector<Row> rows;
+  std::vector<Length> lengths;
+  std::vector<Pressed> pressed;
+  std::vector<int> turn;      // by place in solved_: the place of its turn, -1: none
+  std::vector<Mat3> massive;  // M, by place
+  std::vector<Vec3> change;   // d, by place
+  std::vector<Vec3> from;     // by place: u that K turns from
+  std::vector<BlockFactor::Sides> sides;
+  double gives = 0;  // of links' own A
+  bool stale = true;
 };
 
 class Deformable {
@@ -83,22 +115,19 @@ class Deformable {
 
   std::span<const BodyId> bodies() const { return bodies_; }
   bool isDirect() const { return factor_ != nullptr; }
+  bool isAtOnce() const { return factor_ || points_; }
   bool hasPointsAtOnce() const { return points_ != nullptr; }
   std::size_t size() const { return size_; }
 
-  // Evaluates all rows where `moved` takes the bodies from the start of the substep: the first time
-  // in it, or again, for another step of Newton's; of what it solves at once, as often as that
-  // turns its pieces.
-  void evaluate(const JointStage& stage, bool first);
-  // Of one that is solved at once: all of the position stage, with the normal rows of the contacts
-  // of its points and the bodies that touch them: what presses on a light one in several places
-  // moves it once. An overlap is taken back by at most `push` [m].
-  void solvePositions(const JointStage& stage, double push, std::span<SoftRow> rows);
-  void sweepPositions(std::span<Displacement> moved);
+  // What is solved at once, by Newton's method, with the normal rows of the contacts of its points
+  // and the bodies that touch them: what presses on a light one in several places moves it once. An
+  // overlap is taken back by at most `push` [m].
+  void solvePositions(const JointStage& stage, double step, double push, std::span<SoftRow> rows);
+  void sweepPositions(const JointStage& stage);  // the rest
   // At the end of the substep.
   void prepareVelocities(const Kinds& kinds, const Configuration& at,
-                         std::span<const JointMass> masses);
-  void sweepVelocities(std::span<Displacement> moved);
+                         std::span<const JointMass> masses, std::span<const Displacement> moved);
+  void sweepVelocities(std::span<const JointMass> masses, std::span<Displacement> moved);
   // What holds is off by, relative to its extent, on the average of what it carries.
   double strain(const Kinds& kinds, const Configuration& at);
   // The most that a piece between two points has turned by in the substep [rad].
@@ -108,21 +137,61 @@ class Deformable {
   void goOn(const Kinds& kinds);  // from the multipliers that stand there
 
  private:
-  void evaluateOnce(const JointStage& stage, bool first);
+  // Evaluates all rows where `moved` takes the bodies from the start of the substep: the first time
+  // in it, or again, for another step of Newton's.
+  void evaluate(const JointStage& stage, bool first);
   void evaluateRows(const JointStage& stage, bool first);
-  void layOutPoints(const Kinds& kinds, std::span<const InverseMass> masses);
+  // Of points that are solved at once.
+  void choosePoints(const Kinds& kinds, std::span<const InverseMass> masses);
   void findImplied(const Kinds& kinds);
-  double turnByChange();
-  bool isBent() const;
+  template <class F>
+  void forEachBlockOf(const PointFactor::Pressed& pressed, F&& f) const;
+  void layOutPoints();
+  void takePressed();
+  void factorizePoints();
+  void takeStiffness(std::span<const JointMass> masses, bool first);
   template <class C>
   Vec3 apartBy(const SweptRow<C>& swept) const;
-  bool isHeld(bool atOnce) const { return atOnce && !points_->isLost; }
-  void factorizePoints(bool positions, std::span<const JointMass> masses);
-  void solvePoints(bool positions, std::span<Displacement> moved);
+  double shareOfChange();
+  void turnFrom(std::span<const Displacement> moved);
+  Vec3 turnedBy(int place, std::span<const Displacement> moved) const;
+  void aimAtPoints(bool positions, std::span<const Displacement> moved);
+  bool choosePressed(bool positions, std::span<const Displacement> moved);
+  void takeChange(double share, std::span<const JointMass> masses, std::span<Displacement> moved);
+  double solvePoints(bool positions, bool first, std::span<const JointMass> masses,
+                     std::span<Displacement> moved);
+  void solvePointPositions(const JointStage& stage, double step);
+  void preparePointVelocities(std::span<const Displacement> moved);
+
+  // Of total lengths beside them.
+  struct FreeLength {
+    SweptRow<RopeLength>* swept;
+    PointFactor::Length* length;
+    double error;  // c + J (u - u_0)
+  };
+  template <class F>
+  void forEachLength(F&& f);
+  void layOutLengths(std::vector<std::array<int, 2>>& pieces);
+  void takeLengths(std::span<const JointMass> masses, bool first);
+  void aimAtLengths(std::span<const Displacement> moved);
+  double changeAlong(const SweptRow<RopeLength>& swept, const PointFactor::Length& length,
+                     std::span<const Vec3> change) const;
+  void askFactor(std::span<const FreeLength> lengths);
+  void solveLengths(std::span<const Displacement> moved);
+  bool chooseLengths(bool positions, std::span<const Displacement> moved);
+  void takeLengthChange(double share, std::span<const JointMass> masses,
+                        std::span<Displacement> moved);
+  void prepareLengthVelocities();
+
+  // Of contacts, and of what is solved at once with all of its rows.
+  void solveAllPositions(const JointStage& stage);
   void takeMasses(std::span<const JointMass> masses);
   bool isOwn(BodyId body) const;
   int placeOf(BodyId body) const;  // in solved_; -1: it does not move
   void takeContacts(std::span<SoftRow> rows, double push);
+  void takeLaid();
+  Displacement changeOf(BodyId body) const;
+  bool chooseContacts(bool positions, bool first, std::span<const Displacement> moved);
   void aimAtPositions(std::span<const Displacement> moved);
   template <class C>
   typename Set<C>::Vector changeAlong(const C& item, const SweptRow<C>& swept) const;

@@ -9,8 +9,6 @@ using namespace swept;
 
 namespace {
 
-constexpr int kMostRounds = 30;  // of finding which rows are at a bound
-
 // What a row that may be held is off by, at what the bodies have moved by.
 template <class C>
 typename Set<C>::Vector rowError(const C& item, const SweptRow<C>& swept, bool positions,
@@ -56,14 +54,21 @@ double Deformable::errorNow(const SoftRow& row, bool positions,
   return positions ? row.gap + rate - std::min(row.gap + push_, 0.0) : row.open + rate;
 }
 
-// A row at its bound is free where it would move into what it may do.
-void Deformable::chooseFree(bool positions, bool first, std::span<const Displacement> moved) {
+// A row at its bound is free where it would move into what it may do. True: some are no longer as
+// they were.
+bool Deformable::chooseContacts(bool positions, bool first, std::span<const Displacement> moved) {
+  bool any = false;
   for (SoftRow* row : contacts_) {
     const bool carried = first ? !row->held : row->lambda > 0;
     const bool held = !carried && errorNow(*row, positions, moved) >= 0;
-    factor_->stale = factor_->stale || held != row->held;
+    any = any || held != row->held;
     row->held = held;
   }
+  return any;
+}
+
+void Deformable::chooseFree(bool positions, bool first, std::span<const Displacement> moved) {
+  factor_->stale = chooseContacts(positions, first, moved) || factor_->stale;
   if (!positions) return;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if (!swept.swept || !isBounded<C>(swept)) return;
@@ -136,19 +141,27 @@ typename Set<C>::Vector Deformable::changeAlong(const C& item, const SweptRow<C>
   return sum;
 }
 
-double Deformable::changeAlong(const SoftRow& row) const {
-  double sum = 0;
-  const auto& d = factor_->solution;
-  for (const bool second : {false, true}) {
-    const int place = placeOf(second ? row.to : row.from);
-    if (place < 0) continue;
-    sum += (second ? row.along : 1 - row.along) * row.n.dot(d.segment<3>(unknown_[place]));
+// d.
+Displacement Deformable::changeOf(BodyId body) const {
+  Displacement change{Vec3::Zero(), Vec3::Zero()};
+  const int place = placeOf(body);
+  if (place < 0) return change;
+  if (points_) {
+    const int turn = points_->turn[place];
+    change.u = points_->change[place];
+    if (turn >= 0) change.theta = points_->change[turn];
+    return change;
   }
-  const int place = placeOf(row.body);
-  if (place < 0) return sum;
-  sum -= row.n.dot(d.segment<3>(unknown_[place]));
-  if (turns_[place]) sum -= row.arm.cross(row.n).dot(d.segment<3>(unknown_[place] + 3));
-  return sum;
+  change.u = factor_->solution.segment<3>(unknown_[place]);
+  if (turns_[place]) change.theta = factor_->solution.segment<3>(unknown_[place] + 3);
+  return change;
+}
+
+double Deformable::changeAlong(const SoftRow& row) const {
+  const Displacement body = changeOf(row.body);
+  return row.n.dot((1 - row.along) * changeOf(row.from).u + row.along * changeOf(row.to).u -
+                   body.u) -
+         row.arm.cross(row.n).dot(body.theta);
 }
 
 // Primal-dual: rows that the solution takes past a bound are held there, those held that it moves
@@ -195,12 +208,9 @@ bool Deformable::chooseAgain(std::span<const Displacement> moved) {
 double Deformable::shareOfStep(std::span<const Pose> pose,
                                std::span<const Displacement> moved) const {
   double most = 0;
-  const auto change = [&](BodyId body) -> Vec3 {
-    const int place = placeOf(body);
-    return place < 0 ? Vec3::Zero().eval() : Vec3(factor_->solution.segment<3>(unknown_[place]));
-  };
   for (const auto& [a, b] : pieces_) {
-    const Vec3 now = pose[b].x + moved[b].u - pose[a].x - moved[a].u, by = change(b) - change(a);
+    const Vec3 now = pose[b].x + moved[b].u - pose[a].x - moved[a].u,
+               by = changeOf(b).u - changeOf(a).u;
     const double squared = now.squaredNorm();
     if (squared > 0) most = std::max(most, now.cross(by).norm() / squared);
   }
@@ -239,8 +249,12 @@ void Deformable::solveProgram(bool first, std::span<const Displacement> moved) {
   }
 }
 
-void Deformable::solvePositions(const JointStage& stage, double push, std::span<SoftRow> rows) {
-  takeContacts(rows, push);
+void Deformable::solveAllPositions(const JointStage& stage) {
+  if (found_ != laid_) {
+    takeLaid();
+    unknown_.clear();
+    factor_->factor.forget();
+  }
   evaluate(stage, true);
   from_.clear();
   for (const BodyId i : solved_) from_.push_back(stage.moved[i]);

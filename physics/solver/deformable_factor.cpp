@@ -32,16 +32,16 @@ void Deformable::takeContacts(std::span<SoftRow> rows, double push) {
     contacts_.push_back(&row);
     found_.push_back({row.from, row.to, row.body});
   }
-  if (found_ == laid_) return;
-  std::swap(found_, laid_);
+}
+
+void Deformable::takeLaid() {
+  laid_ = found_;
   solved_ = bodies_;
   for (const SoftRow* row : contacts_) {
     if (row->inverseMass > 0) solved_.push_back(row->body);
   }
   std::sort(solved_.begin(), solved_.end());
   solved_.erase(std::unique(solved_.begin(), solved_.end()), solved_.end());
-  unknown_.clear();
-  factor_->factor.forget();
 }
 
 void Deformable::takeMasses(std::span<const JointMass> masses) {

@@ -1,4 +1,4 @@
-// What holds the points of a cloth: all of its links at once, and the rest of it swept.
+// What holds the points of a cloth, with what touches them: all of it at once.
 #include <algorithm>
 #include <map>
 
@@ -34,11 +34,13 @@ void forEachBlock(const std::array<int, 2>& place, F&& f) {
 
 // What a row gives way by, inverse.
 template <class C>
-typename SweptRow<C>::Matrix stiffnessOf(const SweptRow<C>& swept) {
-  typename SweptRow<C>::Matrix gives = swept.alpha;
-  gives.diagonal().array() += kRedundancy * swept.own;
-  return inverseOrNan(gives);
+typename SweptRow<C>::Matrix stiffnessOf(const SweptRow<C>& swept, double gives) {
+  typename SweptRow<C>::Matrix alpha = swept.alpha;
+  alpha.diagonal().array() += gives * swept.own;
+  return inverseOrNan(alpha);
 }
+
+double stiffnessOf(const SoftRow& row) { return row.inverse / kRedundancy; }
 
 }  // namespace
 
@@ -48,34 +50,31 @@ Mat3 turningStiffness(const Vec3& d, double pull, double length) {
 }
 
 // Which rows are solved at once: those that hold points, unless their factor would fill up.
-void Deformable::layOutPoints(const Kinds& kinds, std::span<const InverseMass> masses) {
-  std::vector<std::array<int, 2>> entries;
-  for (int k = 0; k < static_cast<int>(bodies_.size()); ++k) entries.push_back({k, k});
+void Deformable::choosePoints(const Kinds& kinds, std::span<const InverseMass> masses) {
   bool any = false;  // between two that move
   const auto isPoint = [&](BodyId i) { return !(masses[i].m > 0) || masses[i].inertia.isZero(0); };
   forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if constexpr (Pair<C>) {
       const auto [a, b] = item.bodies;
       swept.isAtOnce = holdsBothWays(item) && isPoint(a) && isPoint(b);
-      if (!swept.isAtOnce) return;
-      swept.place = {placeOf(a), placeOf(b)};
-      forEachBlock(swept.place, [&](int row, int column, double) {
-        entries.push_back({row, column});
-        any = any || row != column;
-      });
+      any = any || (swept.isAtOnce && masses[a].m > 0 && masses[b].m > 0);
     }
   });
   if (any) {
     points_ = std::make_unique<PointFactor>();
-    points_->factor.layOut(entries);
-    if (points_->factor.fill() <= kMostFill) return findImplied(kinds);
+    kinds_ = &kinds;
+    findImplied(kinds);
+    layOutPoints();
+    if (points_->factor.fill() <= kMostFill) return;
     points_.reset();
   }
-  forEachRow(rows_, kinds,
-             [&]<class C>(const C&, SweptRow<C>& swept, double) { swept.isAtOnce = false; });
+  forEachRow(rows_, kinds, [&]<class C>(const C&, SweptRow<C>& swept, double) {
+    swept.isAtOnce = swept.isImplied = false;
+  });
 }
 
-// A total length that the links along it add up to, within what they give way by, is held by them.
+// A total length that the links along it add up to, within what they give way by, is held by them;
+// the others are solved for beside them.
 void Deformable::findImplied(const Kinds& kinds) {
   std::map<std::array<int, 2>, double> lengths;
   const auto keyOf = [&](BodyId a, BodyId b) {
@@ -92,42 +91,130 @@ void Deformable::findImplied(const Kinds& kinds) {
       double sum = 0;
       for (std::size_t p = 1; p < item.bodies.size(); ++p) {
         const auto found = lengths.find(keyOf(item.bodies[p - 1], item.bodies[p]));
-        if (found == lengths.end()) return;
-        sum += found->second;
+        sum += found == lengths.end() ? kUnbounded : found->second;
       }
-      swept.isAtOnce = sum <= (1 + kRedundancy) * item.length;
+      swept.isAtOnce = true;
+      swept.isImplied = sum <= (1 + kRedundancy) * item.length;
+      if (!swept.isImplied) points_->lengths.emplace_back();
     }
   });
 }
 
-// M + J^T alpha^-1 J and, of positions, K.
-void Deformable::factorizePoints(bool positions, std::span<const JointMass> masses) {
-  PointFactor& f = *points_;
-  f.rows.clear();
-  f.inverse.clear();
-  f.factor.begin();
-  for (const BodyId i : bodies_) {
-    f.inverse.push_back(masses[i].inverse);
-    f.factor.give(Mat3::Identity() / masses[i].inverse);
+// f(row, column, block) of what a contact that presses by its stiffness adds to the matrix, always
+// the same ones in the same order: of its points, its body, and that body's turn.
+template <class F>
+void Deformable::forEachBlockOf(const PointFactor::Pressed& pressed, F&& f) const {
+  const SoftRow& row = *pressed.row;
+  const auto sides = sidesOf(row);
+  const double stiffness = row.held ? 0 : stiffnessOf(row);
+  for (int a = 0; a < 4; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      const bool isLower = pressed.place[a] > pressed.place[b];
+      const int more = isLower ? a : b, less = isLower ? b : a;
+      if (pressed.place[less] < 0) continue;
+      const Mat3 block = stiffness * sides[more] * sides[less].transpose();
+      f(pressed.place[more], pressed.place[less], block);
+    }
   }
+}
+
+// Bodies that touch have places of their own, those that turn two.
+void Deformable::layOutPoints() {
+  PointFactor& f = *points_;
+  int count = static_cast<int>(solved_.size());
+  f.turn.assign(count, -1);
+  for (PointFactor::Pressed& pressed : f.pressed) {
+    const SoftRow& row = *pressed.row;
+    const int body = placeOf(row.body);
+    if (body >= 0 && f.turn[body] < 0 && !row.inertia.isZero(0)) f.turn[body] = count++;
+    pressed.place = {placeOf(row.from), row.from == row.to ? -1 : placeOf(row.to), body,
+                     body < 0 ? -1 : f.turn[body]};
+  }
+  std::vector<std::array<int, 2>> entries;
+  const auto add = [&](int row, int column, const auto&) { entries.push_back({row, column}); };
+  for (int k = 0; k < count; ++k) add(k, k, 0);
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if constexpr (Pair<C>) {
       if (!swept.isAtOnce) return;
-      Mat3 block = Mat3::Zero();
-      if (swept.swept) {
-        const auto& j = swept.row.linear[0];
-        block.noalias() = j.transpose() * stiffnessOf<C>(swept) * j;
-        if constexpr (std::is_same_v<C, Link>) {
-          const double length = item.length + swept.row.c[0];
-          const double pull = positions ? -swept.pulled[0] : 0;
-          block += turningStiffness(j.transpose(), pull, length);
-        }
-      }
-      forEachBlock(swept.place, [&](int, int, double sign) { f.factor.give(sign * block); });
-      f.rows.push_back(block);
+      swept.place = {placeOf(item.bodies[0]), placeOf(item.bodies[1])};
+      forEachBlock(swept.place, add);
     }
   });
+  std::vector<std::array<int, 2>> pieces;
+  layOutLengths(pieces);
+  for (const auto& piece : pieces) forEachBlock(piece, add);
+  for (const PointFactor::Pressed& pressed : f.pressed) forEachBlockOf(pressed, add);
+  f.factor.layOut(entries);
+  f.change.resize(count);
+  f.massive.resize(count);
+}
+
+void Deformable::takePressed() {
+  PointFactor& f = *points_;
+  const bool isLaid = found_ == laid_;
+  if (!isLaid) takeLaid();
+  f.pressed.resize(contacts_.size());
+  for (std::size_t k = 0; k < contacts_.size(); ++k) f.pressed[k].row = contacts_[k];
+  if (!isLaid) layOutPoints();
+}
+
+// M + J^T alpha^-1 J + K.
+void Deformable::factorizePoints() {
+  PointFactor& f = *points_;
+  f.stale = false;
+  f.factor.begin();
+  for (const Mat3& mass : f.massive) f.factor.give(mass);
+  std::size_t at = 0;
+  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
+    if constexpr (Pair<C>) {
+      if (!swept.isAtOnce) return;
+      const Mat3& block = f.rows[at++].stiffness;
+      forEachBlock(swept.place, [&](int, int, double sign) { f.factor.give(sign * block); });
+    }
+  });
+  for (PointFactor::Length& length : f.lengths) {
+    length.answer.clear();
+    for (std::size_t p = 1; p < length.place.size(); ++p) {
+      const Mat3& block = length.turning[p - 1];
+      forEachBlock({length.place[p - 1], length.place[p]},
+                   [&](int, int, double sign) { f.factor.give(sign * block); });
+    }
+  }
+  for (const PointFactor::Pressed& pressed : f.pressed) {
+    forEachBlockOf(pressed, [&](int, int, const Mat3& block) { f.factor.give(block); });
+  }
   f.factor.factorize();
+}
+
+// What was evaluated, of each row.
+void Deformable::takeStiffness(std::span<const JointMass> masses, bool first) {
+  PointFactor& f = *points_;
+  f.stale = true;
+  for (std::size_t k = 0; k < solved_.size(); ++k) {
+    const JointMass& mass = masses[solved_[k]];
+    f.massive[k] = Mat3::Identity() / mass.inverse;
+    if (f.turn[k] >= 0) f.massive[f.turn[k]] = inverseOrNan(mass.inertia);
+  }
+  std::size_t at = 0;
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if constexpr (Pair<C>) {
+      if (!swept.isAtOnce) return;
+      if (at == f.rows.size()) f.rows.emplace_back();
+      PointFactor::Row& row = f.rows[at++];
+      if (first) row.given.setZero();
+      row.stiffness.setZero();
+      row.turning.setZero();
+      if (!swept.swept) return;
+      const auto& j = swept.row.linear[0];
+      if constexpr (std::is_same_v<C, Link>) {
+        const double length = item.length + swept.row.c[0];
+        row.turning = turningStiffness(j.transpose(), -swept.pulled[0], length);
+      }
+      row.stiffness = row.turning;
+      row.stiffness.noalias() += j.transpose() * stiffnessOf<C>(swept, f.gives) * j;
+    }
+  });
+  takeLengths(masses, first);
 }
 
 template <class C>
@@ -139,66 +226,162 @@ Vec3 Deformable::apartBy(const SweptRow<C>& swept) const {
   return apart;
 }
 
-double Deformable::turnByChange() {
+// The part of d by which no link turns so far that the rows, which were evaluated before, say
+// nothing of where it ends.
+double Deformable::shareOfChange() {
   double most = 0;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if constexpr (std::is_same_v<C, Link>) {
       if (!swept.isAtOnce || !swept.swept) return;
       const Vec3 across = swept.row.linear[0].transpose().cross(apartBy(swept));
       const double length = item.length + swept.row.c[0];
-      most = std::max(most, length > 0 ? across.norm() / length : kUnbounded);
+      if (length > 0) most = std::max(most, across.norm() / length);
     }
   });
-  return most;
+  return most > kFarTurn ? kFarTurn / most : 1;
 }
 
-// Where d ends the rows are off by more than they were evaluated for.
-bool Deformable::isBent() const {
-  return points_ && !points_->isLost && points_->turn > kStraightTurn;
+// K pushes back what has moved on from here.
+void Deformable::turnFrom(std::span<const Displacement> moved) {
+  points_->from.clear();
+  for (const BodyId i : solved_) points_->from.push_back(moved[i].u);
 }
 
-// (M + K) d - J^T lambda = 0, J d + alpha lambda = -c for the change d of u and, of positions, for
-// lambda itself; its change, of velocities.
-void Deformable::solvePoints(bool positions, std::span<Displacement> moved) {
+Vec3 Deformable::turnedBy(int place, std::span<const Displacement> moved) const {
+  if (place < 0) return Vec3::Zero();
+  return moved[solved_[place]].u - points_->from[place];
+}
+
+// What pushes on the bodies besides what they have been given, in the right-hand side:
+//   J^T (lambda - alpha^-1 c) - K (u - u_from) - given,   c where u is now
+void Deformable::aimAtPoints(bool positions, std::span<const Displacement> moved) {
   PointFactor& f = *points_;
-  if (f.isLost) return;
-  f.change.assign(bodies_.size(), Vec3::Zero());
-  const auto errorNow = [&]<class C>(const C& item, const SweptRow<C>& swept) {
-    typename Set<C>::Vector error = along(item, swept, moved);
-    if (positions) {
-      error += swept.constant + swept.alpha * swept.lambda + kRedundancy * swept.own * swept.lambda;
-    }
-    return error;
-  };
+  std::fill(f.change.begin(), f.change.end(), Vec3::Zero());
+  std::size_t at = 0;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if constexpr (Pair<C>) {
-      if (!swept.isAtOnce || !swept.swept) return;
-      swept.next = stiffnessOf<C>(swept) * errorNow(item, swept);
-      const Vec3 push = swept.row.linear[0].transpose() * swept.next;
+      if (!swept.isAtOnce) return;
+      PointFactor::Row& row = f.rows[at++];
+      if (!swept.swept) return;
       const auto [a, b] = swept.place;
-      if (a >= 0) f.change[a] -= push;
-      if (b >= 0) f.change[b] += push;
+      const auto& j = swept.row.linear[0];
+      const typename Set<C>::Vector error = swept.constant + along(item, swept, moved) +
+                                            swept.alpha * swept.lambda +
+                                            f.gives * swept.own * swept.lambda;
+      swept.next = -(stiffnessOf<C>(swept, f.gives) * error);
+      row.next = j.transpose() * (swept.lambda + swept.next) -
+                 row.turning * (turnedBy(a, moved) - turnedBy(b, moved)) - row.given;
+      if (a >= 0) f.change[a] += row.next;
+      if (b >= 0) f.change[b] -= row.next;
     }
   });
-  f.factor.solve(f.change);
-  f.turn = positions ? turnByChange() : 0;
-  f.isLost = f.turn > kFarTurn;
-  if (f.isLost) return;
-  // By what each row gives to both of its ends: their momentum stays, to rounding.
+  aimAtLengths(moved);
+  for (const PointFactor::Pressed& pressed : f.pressed) {
+    SoftRow& row = *pressed.row;
+    row.next = row.held ? -row.lambda : -stiffnessOf(row) * errorNow(row, positions, moved);
+    const auto sides = sidesOf(row);
+    for (int k = 0; k < 4; ++k) {
+      if (pressed.place[k] >= 0) f.change[pressed.place[k]] += row.next * sides[k];
+    }
+  }
+}
+
+// By what each row gives to both of its ends: their momentum stays, to rounding.
+void Deformable::takeChange(double share, std::span<const JointMass> masses,
+                            std::span<Displacement> moved) {
+  PointFactor& f = *points_;
   std::size_t at = 0;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if constexpr (Pair<C>) {
       if (!swept.isAtOnce) return;
-      const Mat3& block = f.rows[at++];
+      PointFactor::Row& row = f.rows[at++];
       if (!swept.swept) return;
-      const auto& j = swept.row.linear[0];
-      const Vec3 apart = apartBy(swept), push = j.transpose() * swept.next + block * apart;
-      const auto [a, b] = swept.place;
-      if (a >= 0) moved[bodies_[a]].u -= f.inverse[a] * push;
-      if (b >= 0) moved[bodies_[b]].u += f.inverse[b] * push;
-      swept.lambda -= swept.next + stiffnessOf<C>(swept) * (j * apart);
+      const Vec3 apart = apartBy(swept), push = share * (row.next - row.stiffness * apart);
+      row.given += push;
+      swept.lambda +=
+          share * (swept.next - stiffnessOf<C>(swept, f.gives) * (swept.row.linear[0] * apart));
+      const auto [a, b] = item.bodies;
+      moved[a].u += masses[a].inverse * push;
+      moved[b].u -= masses[b].inverse * push;
     }
   });
+  takeLengthChange(share, masses, moved);
+  for (SoftRow* row : contacts_) {
+    const double change =
+        share * (row->held ? row->next : row->next - stiffnessOf(*row) * changeAlong(*row));
+    row->lambda += change;
+    giveTo(*row, change * row->n, moved);
+  }
+}
+
+// Primal-dual, but that what was held again is not set free another time, where it could go on in
+// circles: what overlaps then does so by as much as contacts that press leave it.
+bool Deformable::choosePressed(bool positions, std::span<const Displacement> moved) {
+  bool any = false;
+  for (SoftRow* row : contacts_) {
+    const double rate = changeAlong(*row);
+    const bool frees = row->held && !row->isTried && errorNow(*row, positions, moved) + rate < 0;
+    const bool holds = !row->held && row->lambda + row->next - stiffnessOf(*row) * rate < 0;
+    if (!frees && !holds) continue;
+    row->held = holds;
+    row->isTried = row->isTried || holds;
+    any = true;
+  }
+  return any;
+}
+
+// The change d of u, and the share of it that was taken.
+double Deformable::solvePoints(bool positions, bool first, std::span<const JointMass> masses,
+                               std::span<Displacement> moved) {
+  PointFactor& f = *points_;
+  f.stale = chooseContacts(positions, first, moved) || f.stale;
+  for (SoftRow* row : contacts_) row->isTried = false;
+  for (int round = 1;; ++round) {
+    if (f.stale) factorizePoints();
+    aimAtPoints(positions, moved);
+    f.factor.solve(f.change);
+    solveLengths(moved);
+    if (round == kMostRounds) break;
+    f.stale = choosePressed(positions, moved);
+    if (!chooseLengths(positions, moved) && !f.stale) break;
+  }
+  const double share = positions ? shareOfChange() : 1;
+  takeChange(share, masses, moved);
+  return share;
+}
+
+// From here on: J u = 0 of what holds, and what gives way goes on as it did, while friction moves
+// it.
+void Deformable::preparePointVelocities(std::span<const Displacement> moved) {
+  PointFactor& f = *points_;
+  turnFrom(moved);
+  std::size_t at = 0;
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if constexpr (Pair<C>) {
+      if (!swept.isAtOnce) return;
+      PointFactor::Row& row = f.rows[at++];
+      if (!swept.swept) return;
+      const bool gives = !swept.alpha.isZero(0);
+      swept.constant = -(f.gives * swept.own * swept.lambda);
+      if (gives) swept.constant -= along(item, swept, moved) + swept.alpha * swept.lambda;
+      row.given = swept.row.linear[0].transpose() * swept.lambda;
+    }
+  });
+  prepareLengthVelocities();
+}
+
+// Two steps of Newton's: what is left of the first is of second order in how far pieces turn, and
+// of what is stiff that is energy.
+void Deformable::solvePointPositions(const JointStage& stage, double step) {
+  const double substeps = step / stage.h;
+  points_->gives = kGivesInStep * substeps * substeps;
+  evaluate(stage, true);
+  for (int step = 1;; ++step) {
+    turnFrom(stage.moved);
+    const double share = solvePoints(true, step == 1, stage.masses, stage.moved);
+    if (step == kMostSteps || (step > 1 && share == 1)) return;
+    evaluate(stage, false);
+  }
 }
 
 }  // namespace physics

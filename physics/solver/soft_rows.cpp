@@ -15,6 +15,11 @@ Vec3 slipOf(const SoftRow& row, std::span<const Displacement> moved) {
          b.theta.cross(row.arm);
 }
 
+std::array<Vec3, 4> sidesOf(const SoftRow& row) {
+  if (row.from == row.to) return {row.n, Vec3::Zero(), -row.n, -row.arm.cross(row.n)};
+  return {(1 - row.along) * row.n, row.along * row.n, -row.n, -row.arm.cross(row.n)};
+}
+
 void giveTo(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved) {
   moved[row.from].u += (row.first * (1 - row.along)) * impulse;
   moved[row.to].u += (row.second * row.along) * impulse;

@@ -5,6 +5,7 @@
 // with the total projected on lambda >= 0.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -25,12 +26,15 @@ struct SoftRow {
   Eigen::Matrix2d tangentInverse;
   Eigen::Vector2d friction;
   Friction coefficients;
-  bool owned = false;  // its normal row is solved with those of a deformable
-  bool held = true;    // there: at its bound
+  bool owned = false;    // its normal row is solved with those of a deformable
+  bool held = true;      // there: at its bound
+  bool isTried = false;  // there: it was free in this solve
 };
 
 // What p on the soft side moves by against the matter of the body.
 Vec3 slipOf(const SoftRow& row, std::span<const Displacement> moved);
+// How an impulse along n moves from, to, the body and turns it: momentum, by that impulse.
+std::array<Vec3, 4> sidesOf(const SoftRow& row);
 // Displaces the ends and the body by an impulse on the soft side.
 void giveTo(const SoftRow& row, const Vec3& impulse, std::span<Displacement> moved);
 

@@ -173,9 +173,9 @@ TEST(SmallStepsCloth, ComesToRestBetweenFourCorners) {
   EXPECT_LT(strainOf(world, parts, 16), 1e-3);
 }
 
-// Nothing holds all links of a cloth whose corners are pulled further apart than it is wide. They
-// are swept there, and nothing flies apart.
-TEST(SmallStepsCloth, PulledLongerThanItIsItStaysWhereItIsHeld) {
+// Nothing holds all links of a cloth whose corners are pulled further apart than it is wide. It
+// goes where it is pulled: links and attachments along the way share what is too long.
+TEST(SmallStepsCloth, PulledLongerThanItIsItsLinksShareIt) {
   World world(byDefault(false));
   BodyDef hand;
   hand.shape = Sphere{0.03};
@@ -194,7 +194,10 @@ TEST(SmallStepsCloth, PulledLongerThanItIsItStaysWhereItIsHeld) {
   for (const BodyId node : parts.nodes) {
     EXPECT_LT((world.bodies().pose[node].x - cloth.position).norm(), 2) << node;
   }
-  EXPECT_LT((world.bodies().pose[parts.nodes[19]].x - world.bodies().pose[right].x).norm(), 1e-3);
+  const double share = 0.3 / 20;  // 19 links, and half of one at each end
+  const Vec3 open = world.bodies().pose[parts.nodes[19]].x - world.bodies().pose[right].x;
+  EXPECT_LT(open.norm(), share);
+  EXPECT_LT(strainOf(world, parts, 20) / 19, 1.2 * share);
 }
 
 // What has left the ground falls back to it, and not onto where it was looked for before.
