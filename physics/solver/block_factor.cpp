@@ -57,7 +57,7 @@ void BlockFactor::layOut(std::span<const std::array<int, 2>> entries) {
   values_.resize(pattern_.slotCount());
   lower_.resize(pattern_.lowerCount());
   inverse_.resize(size());
-  row_.assign(size(), Mat3::Zero());
+  row_.assign(size(), {});
   solved_.resize(size());
 }
 
@@ -76,20 +76,21 @@ void BlockFactor::give(const Mat3& block) {
 }
 
 void BlockFactor::factorize() {
+  static const bool isWide = __builtin_cpu_supports("avx2");
+  const SubtractProducts subtractProducts = isWide ? kSubtractProductsAvx2 : kSubtractProductsSse2;
   pattern_.beginFilling();
   for (int k = 0; k < size(); ++k) {
-    pattern_.forEachAbove(k, [&](int row, int slot) { row_[row] += values_[slot]; });
-    Mat3 own = row_[k];
-    row_[k].setZero();
+    pattern_.forEachAbove(k, [&](int row, int slot) { row_[row].matrix() += values_[slot]; });
+    Mat3 own = row_[k].matrix();
+    row_[k] = {};
     for (const int i : pattern_.reach(k)) {
-      Mat3 block;
-      block.noalias() = inverse_[i].lazyProduct(row_[i]);
-      row_[i].setZero();
-      for (int p = pattern_.start(i); p < pattern_.end(i); ++p) {
-        row_[pattern_.rowAt(p)].noalias() -= lower_[p].lazyProduct(block);
-      }
-      own.noalias() -= block.transpose().lazyProduct(block);
-      lower_[pattern_.append(i, k)] = block.transpose();
+      PaddedBlock block;
+      block.matrix().noalias() = inverse_[i].lazyProduct(row_[i].matrix());
+      row_[i] = {};
+      const int start = pattern_.start(i), count = pattern_.end(i) - start;
+      subtractProducts(row_.data(), lower_.data() + start, pattern_.rowsFrom(start), count, block);
+      own.noalias() -= block.matrix().transpose().lazyProduct(block.matrix());
+      lower_[pattern_.append(i, k)].matrix() = block.matrix().transpose();
     }
     inverse_[k] = inverseOfLower(own);
   }
@@ -102,12 +103,12 @@ void BlockFactor::substitute(std::span<X> x, std::vector<X>& solved) const {
   for (int k = 0; k < size(); ++k) {
     solved[k] = product(inverse_[k], solved[k]);
     for (int p = pattern_.start(k); p < pattern_.end(k); ++p) {
-      subtract(solved[pattern_.rowAt(p)], lower_[p], solved[k]);
+      subtract(solved[pattern_.rowAt(p)], lower_[p].matrix(), solved[k]);
     }
   }
   for (int k = size(); k-- > 0;) {
     for (int p = pattern_.start(k); p < pattern_.end(k); ++p) {
-      subtract(solved[k], lower_[p].transpose(), solved[pattern_.rowAt(p)]);
+      subtract(solved[k], lower_[p].matrix().transpose(), solved[pattern_.rowAt(p)]);
     }
     solved[k] = product(inverse_[k].transpose(), solved[k]);
   }

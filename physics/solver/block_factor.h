@@ -9,6 +9,18 @@
 
 namespace physics {
 
+// By columns, four numbers apart: one register each.
+struct alignas(32) PaddedBlock {
+  double of[12] = {};
+  auto matrix() { return Eigen::Map<Mat3, 0, Eigen::OuterStride<4>>(of); }
+  auto matrix() const { return Eigen::Map<const Mat3, 0, Eigen::OuterStride<4>>(of); }
+};
+
+// row[at[p]] -= lower[p] block
+using SubtractProducts = void (*)(PaddedBlock* row, const PaddedBlock* lower, const int* at,
+                                  int count, const PaddedBlock& block);
+extern const SubtractProducts kSubtractProductsSse2, kSubtractProductsAvx2;
+
 class BlockFactor {
  public:
   void layOut(std::span<const std::array<int, 2>> entries);
@@ -32,8 +44,9 @@ class BlockFactor {
   std::vector<bool> isTurned_;  // by entry: its column is eliminated before its row
   std::vector<Mat3> values_;    // of the upper triangle, in the order of elimination
   std::size_t next_ = 0;
-  std::vector<Mat3> lower_, inverse_;  // of L; of its diagonal, inverse: triangular
-  std::vector<Mat3> row_;              // scratch: zero but within a row of factorize
+  std::vector<PaddedBlock> lower_;  // of L
+  std::vector<Mat3> inverse_;       // of its diagonal, inverse: triangular
+  std::vector<PaddedBlock> row_;    // scratch: zero but within a row of factorize
   std::vector<Vec3> solved_;
   std::vector<Sides> solvedSides_;
 };

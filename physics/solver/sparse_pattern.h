@@ -37,6 +37,7 @@ class SparsePattern {
   int start(int column) const { return starts_[column]; }
   int end(int column) const { return starts_[column] + filled_[column]; }
   int rowAt(int at) const { return below_[at]; }
+  const int* rowsFrom(int at) const { return below_.data() + at; }
 
  private:
   void findColumns();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <cstring>
 #include <random>
 
 namespace physics::testing {
@@ -60,6 +61,30 @@ TEST(BlockFactor, SolvesWhatADenseOneDoes) {
     }
   }
   EXPECT_GT(wanted.norm(), 0.1);
+}
+
+TEST(BlockFactor, WideProductsAreTheSameBytes) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2";
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> spread(-1, 1);
+  const auto any = [&] {
+    PaddedBlock block;
+    for (int k = 0; k < 9; ++k) block.matrix()(k / 3, k % 3) = spread(random);
+    return block;
+  };
+  constexpr int kCount = 5;
+  const std::array<int, kCount> at = {4, 0, 3, 1, 2};
+  std::array<PaddedBlock, kCount> lower, row;
+  for (int k = 0; k < kCount; ++k) lower[k] = any(), row[k] = any();
+  std::array<PaddedBlock, kCount> wide = row, narrow = row;
+  const PaddedBlock block = any();
+  kSubtractProductsAvx2(wide.data(), lower.data(), at.data(), kCount, block);
+  kSubtractProductsSse2(narrow.data(), lower.data(), at.data(), kCount, block);
+  EXPECT_EQ(0, std::memcmp(wide.data(), narrow.data(), sizeof wide));
+  for (int k = 0; k < kCount; ++k) {
+    const Mat3 wanted = row[at[k]].matrix() - lower[k].matrix() * block.matrix();
+    EXPECT_LT((wide[at[k]].matrix() - wanted).norm(), 1e-15) << k;
+  }
 }
 
 }  // namespace
