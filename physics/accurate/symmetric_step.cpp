@@ -135,7 +135,8 @@ void SymmetricStep::move(double h, const Surroundings& world) {
     spin.omega = omega;
     spin.mean = isIsotropic(inertia_[i]) ? omega : freeTurn(inertia_[i], omega, h, 0.5, guess).mean;
     const Quat& q = from.pose[i].q;
-    to_.pose[i].q = (exponential(h * (spin.turned * spin.mean)) * q).normalized();
+    to_.pose[i].q = exponential(h * (spin.turned * spin.mean)) * q;
+    renormalize(to_.pose[i].q);
   }
 }
 

@@ -89,6 +89,8 @@ struct BackTurn {
   }
 };
 
+constexpr double kTurnRounding = 4e-16;  // of a momentum: two roundings
+
 // Newton on F(Omega_m) = I Omega_m - (1 - e) M - e exp(-h Omega_m) M. Where its derivative is not
 // regular, the first order of it in h is: I - e h [M']x.
 FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end,
@@ -96,14 +98,16 @@ FreeTurn solveTurn(const Vec3& inertia, const Vec3& omega, double dt, double end
   constexpr int kMostIterations = 30;  // Newton doubles its digits: more do not converge
   const Vec3 momentum = inertia.cwiseProduct(omega);
   const double scale = momentum.norm();
-  if (scale == 0) return {omega, omega, true};
+  // About a principal axis it goes on as it is.
+  const double turned = dt * omega.cross(momentum).norm();
+  if (scale == 0 || turned <= kTurnRounding * scale) return {omega, omega, true};
   FreeTurn turn{guess, omega, true};
   for (int k = 0; k < kMostIterations; ++k) {
     const BackTurn back(dt * turn.mean);
     const Vec3 after = back.of(momentum);
     const Vec3 residual = inertia.cwiseProduct(turn.mean) - ((1 - end) * momentum + end * after);
-    // Two roundings; half of the digits where rounding keeps it from getting there.
-    if (residual.norm() <= 4e-16 * scale || k == kMostIterations - 1) {
+    // Half of the digits where rounding keeps it from getting there.
+    if (residual.norm() <= kTurnRounding * scale || k == kMostIterations - 1) {
       turn.converged = residual.norm() <= 1e-9 * scale;
       turn.after = after.cwiseQuotient(inertia);
       break;
