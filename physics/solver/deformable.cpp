@@ -49,6 +49,20 @@ Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
   return mesh;
 }
 
+namespace {
+
+// A of a total length as that of its pieces, one after the other: its own comes to nothing where
+// they are in line.
+double ownOfPieces(const RopeLength& item, std::span<const JointMass> masses) {
+  double sum = 0;
+  for (std::size_t p = 1; p < item.bodies.size(); ++p) {
+    sum += masses[item.bodies[p - 1]].inverse + masses[item.bodies[p]].inverse;
+  }
+  return sum;
+}
+
+}  // namespace
+
 Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
                        std::span<const InverseMass> masses, bool direct) {
   int place = 0;
@@ -73,11 +87,41 @@ Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
   std::sort(bodies_.begin(), bodies_.end());
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
   solved_ = bodies_;
+  findImplied(kinds);
   if (direct) {
     factor_ = std::make_unique<MeshFactor>();
   } else {
     choosePoints(kinds, masses);
   }
+  if (!isAtOnce()) sweepAllLengths();
+}
+
+// Swept one by one, links say little of how long all of them are.
+void Deformable::sweepAllLengths() {
+  for (auto& swept : std::get<std::vector<SweptRow<RopeLength>>>(rows_)) swept.isImplied = false;
+}
+
+// A total length that rigid links along it add up to is held by them.
+void Deformable::findImplied(const Kinds& kinds) {
+  std::map<std::array<int, 2>, double> lengths;
+  const auto keyOf = [&](BodyId a, BodyId b) {
+    return std::array<int, 2>{std::min(a, b), std::max(a, b)};
+  };
+  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>&, double) {
+    if constexpr (std::is_same_v<C, Link>) {
+      if (item.compliance == 0) lengths[keyOf(item.bodies[0], item.bodies[1])] = item.length;
+    }
+  });
+  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if constexpr (std::is_same_v<C, RopeLength>) {
+      double sum = 0;
+      for (std::size_t p = 1; p < item.bodies.size(); ++p) {
+        const auto found = lengths.find(keyOf(item.bodies[p - 1], item.bodies[p]));
+        sum += found == lengths.end() ? kUnbounded : found->second;
+      }
+      swept.isImplied = item.rope && sum <= (1 + kRedundancy) * item.length;
+    }
+  });
 }
 
 void Deformable::evaluate(const JointStage& stage, bool first) {
@@ -99,9 +143,10 @@ void Deformable::evaluateRows(const JointStage& stage, bool first) {
     if (first) swept.lambda.setZero();
     swept.next = swept.lambda;
     swept.swept = false;
-    if (!swept.row.active) return;
+    if (!swept.row.active || swept.isImplied) return;
     swept.constant = errorOf<C>(swept);
     invert<C>(swept, respond(item, swept, masses), Force<C> ? 0 : regularisation);
+    if constexpr (std::is_same_v<C, RopeLength>) swept.own = ownOfPieces(item, masses);
     if (swept.isLoad) {
       swept.swept = false;
     } else {
@@ -122,11 +167,13 @@ void Deformable::evaluateRows(const JointStage& stage, bool first) {
 
 void Deformable::solvePositions(const JointStage& stage, double step, double push,
                                 std::span<SoftRow> rows) {
+  const double substeps = step / stage.h;
+  gives_ = kGivesInStep * substeps * substeps;
   if (!factor_ && !points_) return evaluate(stage, true);
   takeContacts(rows, push);
   if (factor_) return solveAllPositions(stage);
   takePressed();
-  solvePointPositions(stage, step);
+  solvePointPositions(stage);
 }
 
 void Deformable::sweepPositions(const JointStage& stage) {

@@ -103,7 +103,6 @@ struct PointFactor {
   std::vector<Vec3> change;   // d, by place
   std::vector<Vec3> from;     // by place: u that K turns from
   std::vector<BlockFactor::Sides> sides;
-  double gives = 0;  // of links' own A
   bool stale = true;
 };
 
@@ -141,9 +140,10 @@ class Deformable {
   // in it, or again, for another step of Newton's.
   void evaluate(const JointStage& stage, bool first);
   void evaluateRows(const JointStage& stage, bool first);
+  void findImplied(const Kinds& kinds);
+  void sweepAllLengths();
   // Of points that are solved at once.
   void choosePoints(const Kinds& kinds, std::span<const InverseMass> masses);
-  void findImplied(const Kinds& kinds);
   template <class F>
   void forEachBlockOf(const PointFactor::Pressed& pressed, F&& f) const;
   void layOutPoints();
@@ -160,7 +160,7 @@ class Deformable {
   void takeChange(double share, std::span<const JointMass> masses, std::span<Displacement> moved);
   double solvePoints(bool positions, bool first, std::span<const JointMass> masses,
                      std::span<Displacement> moved);
-  void solvePointPositions(const JointStage& stage, double step);
+  void solvePointPositions(const JointStage& stage);
   void preparePointVelocities(std::span<const Displacement> moved);
 
   // Of total lengths beside them.
@@ -171,8 +171,9 @@ class Deformable {
   };
   template <class F>
   void forEachLength(F&& f);
+  void takeLengthsAtOnce();
   void layOutLengths(std::vector<std::array<int, 2>>& pieces);
-  void takeLengths(std::span<const JointMass> masses, bool first);
+  void takeLengths(bool first);
   void aimAtLengths(std::span<const Displacement> moved);
   double changeAlong(const SweptRow<RopeLength>& swept, const PointFactor::Length& length,
                      std::span<const Vec3> change) const;
@@ -204,6 +205,12 @@ class Deformable {
   void solveVelocities(std::span<Displacement> moved);
   void factorize(bool positions);
   void solveFactor();
+  template <class C>
+  bool isExact() const {  // what keeps the factor regular is no compliance
+    return !repeats_ && !std::is_same_v<C, RopeLength>;
+  }
+  template <class C>
+  double leastOf(const SweptRow<C>& swept) const;
   template <class F>
   void emit(bool positions, F&& entry);
   double errorNow(const SoftRow& row, bool positions, std::span<const Displacement> moved) const;
@@ -224,7 +231,8 @@ class Deformable {
   std::vector<SoftRow*> contacts_;
   // Of the contacts: those that the factor has rows for, and those found.
   std::vector<std::array<BodyId, 3>> laid_, found_;
-  double push_ = 0;             // overlap taken back in a substep, at the most [m]
+  double gives_ = 0;  // what rigid links of a cloth, and total lengths, give way by, of own A
+  double push_ = 0;   // overlap taken back in a substep, at the most [m]
   std::vector<BodyId> bodies_;  // those that move, sorted
   std::vector<BodyId> solved_;  // those, and bodies that touch them: what a factor solves for
   std::size_t size_ = 0;

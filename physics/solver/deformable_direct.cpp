@@ -97,7 +97,7 @@ void Deformable::aimAtPositions(std::span<const Displacement> moved) {
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if (swept.swept && !swept.held) {
       f.right.template segment<C::kRows>(at) =
-          (repeats_ ? 0 : kRedundancy) * swept.own * swept.lambda - swept.constant -
+          (isExact<C>() ? kRedundancy : 0) * swept.own * swept.lambda - swept.constant -
           along(item, swept, moved);
     } else if (swept.swept && !swept.next.isZero(0)) {
       for (std::size_t b = 0; b < item.bodies.size(); ++b) {
@@ -165,7 +165,9 @@ double Deformable::changeAlong(const SoftRow& row) const {
 }
 
 // Primal-dual: rows that the solution takes past a bound are held there, those held that it moves
-// into what they may do are free. False: there is none.
+// into what they may do are free. Contacts that were held again stay so, where they could go on in
+// circles: what overlaps then does so by as much as those that press leave it. False: there is
+// none.
 bool Deformable::chooseAgain(std::span<const Displacement> moved) {
   bool any = false;
   int at = unknowns_;
@@ -191,13 +193,13 @@ bool Deformable::chooseAgain(std::span<const Displacement> moved) {
   for (SoftRow* row : contacts_) {
     const double wanted = -factor_->solution[at++];
     if (row->held) {
-      if (errorNow(*row, true, moved) + changeAlong(*row) >= 0) continue;
+      if (row->isTried || errorNow(*row, true, moved) + changeAlong(*row) >= 0) continue;
       row->held = false;
       any = true;
       continue;
     }
     row->next = std::max(wanted, 0.0);
-    if (wanted < 0) row->held = any = true;
+    if (wanted < 0) row->held = row->isTried = any = true;
   }
   factor_->stale = factor_->stale || any;
   return any;

@@ -65,6 +65,12 @@ void Deformable::takeMasses(std::span<const JointMass> masses) {
   factor_->stale = true;
 }
 
+// What a row gives way by besides alpha.
+template <class C>
+double Deformable::leastOf(const SweptRow<C>& swept) const {
+  return (std::is_same_v<C, RopeLength> ? gives_ : kRedundancy) * swept.own;
+}
+
 // entry(row, column, value) of the lower triangle, always the same ones in the same order.
 template <class F>
 void Deformable::emit(bool positions, F&& entry) {
@@ -91,6 +97,11 @@ void Deformable::emit(bool positions, F&& entry) {
   };
   int at = unknowns_;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if (swept.isImplied) {
+      entry(at, at, -1);
+      ++at;
+      return;
+    }
     const bool free = swept.swept && !swept.held;
     if constexpr (std::is_same_v<C, Link> || std::is_same_v<C, RopeLength>) {
       const double pulls = positions && swept.row.active ? -swept.pulled[0] : 0;
@@ -121,7 +132,7 @@ void Deformable::emit(bool positions, F&& entry) {
     for (int r = 0; r < C::kRows; ++r) {
       for (int j = 0; j <= r; ++j) {
         const double gives = free ? swept.alpha(r, j) : 0;
-        const double least = free ? kRedundancy * swept.own : 1;
+        const double least = free ? leastOf(swept) : 1;
         entry(at + r, at + j, -gives - (r == j ? least : 0));
       }
     }

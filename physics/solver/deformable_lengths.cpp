@@ -15,7 +15,17 @@ void Deformable::forEachLength(F&& f) {
   auto next = points_->lengths.begin();
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if constexpr (std::is_same_v<C, RopeLength>) {
-      if (swept.isAtOnce && !swept.isImplied) f(item, swept, *next++);
+      if (swept.isAtOnce) f(item, swept, *next++);
+    }
+  });
+}
+
+void Deformable::takeLengthsAtOnce() {
+  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
+    if constexpr (std::is_same_v<C, RopeLength>) {
+      if (swept.isImplied) return;
+      swept.isAtOnce = true;
+      points_->lengths.emplace_back();
     }
   });
 }
@@ -34,8 +44,7 @@ void Deformable::layOutLengths(std::vector<std::array<int, 2>>& pieces) {
   });
 }
 
-// A total length gives way as its pieces would, one after the other.
-void Deformable::takeLengths(std::span<const JointMass> masses, bool first) {
+void Deformable::takeLengths(bool first) {
   forEachLength(
       [&](const RopeLength& item, SweptRow<RopeLength>& swept, PointFactor::Length& length) {
         length.answer.clear();
@@ -43,11 +52,7 @@ void Deformable::takeLengths(std::span<const JointMass> masses, bool first) {
         std::fill(length.turning.begin(), length.turning.end(), Mat3::Zero());
         if (!swept.swept) return;
         const std::size_t count = item.bodies.size();
-        length.gives = swept.alpha(0, 0);
-        for (std::size_t p = 1; p < count; ++p) {
-          const double a = masses[item.bodies[p - 1]].inverse, b = masses[item.bodies[p]].inverse;
-          length.gives += points_->gives * (a + b);
-        }
+        length.gives = swept.alpha(0, 0) + gives_ * swept.own;
         if (first) {
           length.held = isBounded(swept) && swept.pulled.isZero(0) && !(swept.row.c[0] > 0);
         }

@@ -1,6 +1,5 @@
 // What holds the points of a cloth, with what touches them: all of it at once.
 #include <algorithm>
-#include <map>
 
 #include "physics/base/inverse.h"
 #include "physics/solver/deformable.h"
@@ -63,41 +62,13 @@ void Deformable::choosePoints(const Kinds& kinds, std::span<const InverseMass> m
   if (any) {
     points_ = std::make_unique<PointFactor>();
     kinds_ = &kinds;
-    findImplied(kinds);
+    takeLengthsAtOnce();
     layOutPoints();
     if (points_->factor.fill() <= kMostFill) return;
     points_.reset();
   }
-  forEachRow(rows_, kinds, [&]<class C>(const C&, SweptRow<C>& swept, double) {
-    swept.isAtOnce = swept.isImplied = false;
-  });
-}
-
-// A total length that the links along it add up to, within what they give way by, is held by them;
-// the others are solved for beside them.
-void Deformable::findImplied(const Kinds& kinds) {
-  std::map<std::array<int, 2>, double> lengths;
-  const auto keyOf = [&](BodyId a, BodyId b) {
-    return std::array<int, 2>{std::min(a, b), std::max(a, b)};
-  };
-  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (std::is_same_v<C, Link>) {
-      if (swept.isAtOnce && isEquality(item))
-        lengths[keyOf(item.bodies[0], item.bodies[1])] = item.length;
-    }
-  });
-  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (std::is_same_v<C, RopeLength>) {
-      double sum = 0;
-      for (std::size_t p = 1; p < item.bodies.size(); ++p) {
-        const auto found = lengths.find(keyOf(item.bodies[p - 1], item.bodies[p]));
-        sum += found == lengths.end() ? kUnbounded : found->second;
-      }
-      swept.isAtOnce = true;
-      swept.isImplied = sum <= (1 + kRedundancy) * item.length;
-      if (!swept.isImplied) points_->lengths.emplace_back();
-    }
-  });
+  forEachRow(rows_, kinds,
+             [&]<class C>(const C&, SweptRow<C>& swept, double) { swept.isAtOnce = false; });
 }
 
 // f(row, column, block) of what a contact that presses by its stiffness adds to the matrix, always
@@ -211,10 +182,10 @@ void Deformable::takeStiffness(std::span<const JointMass> masses, bool first) {
         row.turning = turningStiffness(j.transpose(), -swept.pulled[0], length);
       }
       row.stiffness = row.turning;
-      row.stiffness.noalias() += j.transpose() * stiffnessOf<C>(swept, f.gives) * j;
+      row.stiffness.noalias() += j.transpose() * stiffnessOf<C>(swept, gives_) * j;
     }
   });
-  takeLengths(masses, first);
+  takeLengths(first);
 }
 
 template <class C>
@@ -267,8 +238,8 @@ void Deformable::aimAtPoints(bool positions, std::span<const Displacement> moved
       const auto& j = swept.row.linear[0];
       const typename Set<C>::Vector error = swept.constant + along(item, swept, moved) +
                                             swept.alpha * swept.lambda +
-                                            f.gives * swept.own * swept.lambda;
-      swept.next = -(stiffnessOf<C>(swept, f.gives) * error);
+                                            gives_ * swept.own * swept.lambda;
+      swept.next = -(stiffnessOf<C>(swept, gives_) * error);
       row.next = j.transpose() * (swept.lambda + swept.next) -
                  row.turning * (turnedBy(a, moved) - turnedBy(b, moved)) - row.given;
       if (a >= 0) f.change[a] += row.next;
@@ -299,7 +270,7 @@ void Deformable::takeChange(double share, std::span<const JointMass> masses,
       const Vec3 apart = apartBy(swept), push = share * (row.next - row.stiffness * apart);
       row.given += push;
       swept.lambda +=
-          share * (swept.next - stiffnessOf<C>(swept, f.gives) * (swept.row.linear[0] * apart));
+          share * (swept.next - stiffnessOf<C>(swept, gives_) * (swept.row.linear[0] * apart));
       const auto [a, b] = item.bodies;
       moved[a].u += masses[a].inverse * push;
       moved[b].u -= masses[b].inverse * push;
@@ -314,8 +285,7 @@ void Deformable::takeChange(double share, std::span<const JointMass> masses,
   }
 }
 
-// Primal-dual, but that what was held again is not set free another time, where it could go on in
-// circles: what overlaps then does so by as much as contacts that press leave it.
+// Primal-dual, as chooseAgain.
 bool Deformable::choosePressed(bool positions, std::span<const Displacement> moved) {
   bool any = false;
   for (SoftRow* row : contacts_) {
@@ -335,7 +305,6 @@ double Deformable::solvePoints(bool positions, bool first, std::span<const Joint
                                std::span<Displacement> moved) {
   PointFactor& f = *points_;
   f.stale = chooseContacts(positions, first, moved) || f.stale;
-  for (SoftRow* row : contacts_) row->isTried = false;
   for (int round = 1;; ++round) {
     if (f.stale) factorizePoints();
     aimAtPoints(positions, moved);
@@ -362,7 +331,7 @@ void Deformable::preparePointVelocities(std::span<const Displacement> moved) {
       PointFactor::Row& row = f.rows[at++];
       if (!swept.swept) return;
       const bool gives = !swept.alpha.isZero(0);
-      swept.constant = -(f.gives * swept.own * swept.lambda);
+      swept.constant = -(gives_ * swept.own * swept.lambda);
       if (gives) swept.constant -= along(item, swept, moved) + swept.alpha * swept.lambda;
       row.given = swept.row.linear[0].transpose() * swept.lambda;
     }
@@ -372,9 +341,7 @@ void Deformable::preparePointVelocities(std::span<const Displacement> moved) {
 
 // Two steps of Newton's: what is left of the first is of second order in how far pieces turn, and
 // of what is stiff that is energy.
-void Deformable::solvePointPositions(const JointStage& stage, double step) {
-  const double substeps = step / stage.h;
-  points_->gives = kGivesInStep * substeps * substeps;
+void Deformable::solvePointPositions(const JointStage& stage) {
   evaluate(stage, true);
   for (int step = 1;; ++step) {
     turnFrom(stage.moved);

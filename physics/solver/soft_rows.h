@@ -28,7 +28,7 @@ struct SoftRow {
   Friction coefficients;
   bool owned = false;    // its normal row is solved with those of a deformable
   bool held = true;      // there: at its bound
-  bool isTried = false;  // there: it was free in this solve
+  bool isTried = false;  // there: it was set free in this solve and held again
 };
 
 // What p on the soft side moves by against the matter of the body.

@@ -24,7 +24,7 @@ struct SweptRow {
   double own = 0;                       // mean of A's diagonal
   bool held = false;                    // at a bound, while the others are solved for
   bool isAtOnce = false;                // solved with the others that hold points, not swept
-  bool isImplied = false;               // or held by them
+  bool isImplied = false;               // others hold it
   std::array<int, 2> place = {-1, -1};  // then: of its bodies, -1: it does not move
   Evaluated<C> row;
   Response<C> response;                                       // M^-1 J^T
