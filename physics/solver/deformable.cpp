@@ -137,9 +137,11 @@ void Deformable::evaluateRows(const JointStage& stage, bool first) {
   const Configuration at = {stage.pose, stage.start, stage.h};
   const auto masses = stage.masses;
   const auto moved = stage.moved;
+  const double longer = first && before_ > 0 ? stage.h / before_ : 1;
+  before_ = stage.h;
   const auto prepare = [&]<class C>(const C& item, SweptRow<C>& swept, double regularisation) {
     item.evaluate(at, swept.row);
-    swept.pulled = swept.lambda;
+    swept.pulled = longer * longer * swept.lambda;
     if (first) swept.lambda.setZero();
     swept.next = swept.lambda;
     swept.swept = false;
@@ -251,6 +253,7 @@ void Deformable::goOn(const Kinds& kinds) {
     using C = typename std::decay_t<decltype(kind)>::Item;
     for (SweptRow<C>& swept : std::get<std::vector<SweptRow<C>>>(rows_)) {
       swept.lambda = kind.set.lambda[swept.item].total;
+      before_ = kind.set.lambda[swept.item].step;
     }
   });
 }

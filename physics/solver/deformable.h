@@ -231,8 +231,9 @@ class Deformable {
   std::vector<SoftRow*> contacts_;
   // Of the contacts: those that the factor has rows for, and those found.
   std::vector<std::array<BodyId, 3>> laid_, found_;
-  double gives_ = 0;  // what rigid links of a cloth, and total lengths, give way by, of own A
-  double push_ = 0;   // overlap taken back in a substep, at the most [m]
+  double gives_ = 0;   // what rigid links of a cloth, and total lengths, give way by, of own A
+  double before_ = 0;  // length of the last substep [s]; 0: none
+  double push_ = 0;    // overlap taken back in a substep, at the most [m]
   std::vector<BodyId> bodies_;  // those that move, sorted
   std::vector<BodyId> solved_;  // those, and bodies that touch them: what a factor solves for
   std::size_t size_ = 0;
