@@ -96,12 +96,13 @@ Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
   if (!isAtOnce()) sweepAllLengths();
 }
 
-// Swept one by one, links say little of how long all of them are.
+// Links that are swept one by one say little of how long all of them are.
 void Deformable::sweepAllLengths() {
   for (auto& swept : std::get<std::vector<SweptRow<RopeLength>>>(rows_)) swept.isImplied = false;
 }
 
-// A total length that rigid links along it add up to is held by them.
+// A total length that rigid links along it add up to is held by them: no row of a cloth's. Of a
+// rope's it stays one that repeats others: Newton's method finds sooner which links are slack.
 void Deformable::findImplied(const Kinds& kinds) {
   std::map<std::array<int, 2>, double> lengths;
   const auto keyOf = [&](BodyId a, BodyId b) {
@@ -145,10 +146,12 @@ void Deformable::evaluateRows(const JointStage& stage, bool first) {
     if (first) swept.lambda.setZero();
     swept.next = swept.lambda;
     swept.swept = false;
-    if (!swept.row.active || swept.isImplied) return;
+    if (!swept.row.active || (points_ && swept.isImplied)) return;
     swept.constant = errorOf<C>(swept);
     invert<C>(swept, respond(item, swept, masses), Force<C> ? 0 : regularisation);
-    if constexpr (std::is_same_v<C, RopeLength>) swept.own = ownOfPieces(item, masses);
+    if constexpr (std::is_same_v<C, RopeLength>) {
+      if (!swept.isImplied) swept.own = ownOfPieces(item, masses);
+    }
     if (swept.isLoad) {
       swept.swept = false;
     } else {

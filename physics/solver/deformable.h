@@ -198,16 +198,16 @@ class Deformable {
   typename Set<C>::Vector changeAlong(const C& item, const SweptRow<C>& swept) const;
   double changeAlong(const SoftRow& row) const;
   void solveProgram(bool first, std::span<const Displacement> moved);
-  bool chooseAgain(std::span<const Displacement> moved);
+  bool chooseAgain(bool isLate, std::span<const Displacement> moved);
   double shareOfStep(std::span<const Pose> pose, std::span<const Displacement> moved) const;
   void takePositions(double share, std::span<Displacement> moved);
   bool isClosed(std::span<const Displacement> moved) const;
   void solveVelocities(std::span<Displacement> moved);
   void factorize(bool positions);
   void solveFactor();
-  template <class C>
-  bool isExact() const {  // what keeps the factor regular is no compliance
-    return !repeats_ && !std::is_same_v<C, RopeLength>;
+  template <class C>  // what keeps the factor regular is a compliance of it
+  static bool givesInLine(const SweptRow<C>& swept) {
+    return std::is_same_v<C, RopeLength> && !swept.isImplied;
   }
   template <class C>
   double leastOf(const SweptRow<C>& swept) const;

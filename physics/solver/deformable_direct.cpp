@@ -97,8 +97,8 @@ void Deformable::aimAtPositions(std::span<const Displacement> moved) {
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if (swept.swept && !swept.held) {
       f.right.template segment<C::kRows>(at) =
-          (isExact<C>() ? kRedundancy : 0) * swept.own * swept.lambda - swept.constant -
-          along(item, swept, moved);
+          (repeats_ || givesInLine(swept) ? 0 : kRedundancy) * swept.own * swept.lambda -
+          swept.constant - along(item, swept, moved);
     } else if (swept.swept && !swept.next.isZero(0)) {
       for (std::size_t b = 0; b < item.bodies.size(); ++b) {
         const int place = placeOf(item.bodies[b]);
@@ -168,7 +168,7 @@ double Deformable::changeAlong(const SoftRow& row) const {
 // into what they may do are free. Contacts that were held again stay so, where they could go on in
 // circles: what overlaps then does so by as much as those that press leave it. False: there is
 // none.
-bool Deformable::chooseAgain(std::span<const Displacement> moved) {
+bool Deformable::chooseAgain(bool isLate, std::span<const Displacement> moved) {
   bool any = false;
   int at = unknowns_;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
@@ -193,7 +193,8 @@ bool Deformable::chooseAgain(std::span<const Displacement> moved) {
   for (SoftRow* row : contacts_) {
     const double wanted = -factor_->solution[at++];
     if (row->held) {
-      if (row->isTried || errorNow(*row, true, moved) + changeAlong(*row) >= 0) continue;
+      if (isLate && row->isTried) continue;
+      if (errorNow(*row, true, moved) + changeAlong(*row) >= 0) continue;
       row->held = false;
       any = true;
       continue;
@@ -247,7 +248,8 @@ void Deformable::solveProgram(bool first, std::span<const Displacement> moved) {
     if (f.stale) factorize(true);
     aimAtPositions(moved);
     solveFactor();
-    if (!chooseAgain(moved) || round == kMostRounds) return;
+    const bool isLate = 2 * round > kMostRounds;
+    if (!chooseAgain(isLate, moved) || round == kMostRounds) return;
   }
 }
 

@@ -68,7 +68,7 @@ void Deformable::takeMasses(std::span<const JointMass> masses) {
 // What a row gives way by besides alpha.
 template <class C>
 double Deformable::leastOf(const SweptRow<C>& swept) const {
-  return (std::is_same_v<C, RopeLength> ? gives_ : kRedundancy) * swept.own;
+  return (givesInLine(swept) ? gives_ : kRedundancy) * swept.own;
 }
 
 // entry(row, column, value) of the lower triangle, always the same ones in the same order.
@@ -97,11 +97,6 @@ void Deformable::emit(bool positions, F&& entry) {
   };
   int at = unknowns_;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if (swept.isImplied) {
-      entry(at, at, -1);
-      ++at;
-      return;
-    }
     const bool free = swept.swept && !swept.held;
     if constexpr (std::is_same_v<C, Link> || std::is_same_v<C, RopeLength>) {
       const double pulls = positions && swept.row.active ? -swept.pulled[0] : 0;

@@ -285,7 +285,7 @@ void Deformable::takeChange(double share, std::span<const JointMass> masses,
   }
 }
 
-// Primal-dual, as chooseAgain.
+// Primal-dual, as chooseAgain, but that none is tried twice: each round has a factor of its own.
 bool Deformable::choosePressed(bool positions, std::span<const Displacement> moved) {
   bool any = false;
   for (SoftRow* row : contacts_) {
