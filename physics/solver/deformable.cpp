@@ -87,22 +87,17 @@ Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
   std::sort(bodies_.begin(), bodies_.end());
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
   solved_ = bodies_;
-  findImplied(kinds);
   if (direct) {
+    findImplied(kinds);
     factor_ = std::make_unique<MeshFactor>();
   } else {
     choosePoints(kinds, masses);
   }
-  if (!isAtOnce()) sweepAllLengths();
-}
-
-// Links that are swept one by one say little of how long all of them are.
-void Deformable::sweepAllLengths() {
-  for (auto& swept : std::get<std::vector<SweptRow<RopeLength>>>(rows_)) swept.isImplied = false;
 }
 
 // A total length that rigid links along it add up to is held by them: no row of a cloth's. Of a
 // rope's it stays one that repeats others: Newton's method finds sooner which links are slack.
+// Links that are swept say little of how long all of them are.
 void Deformable::findImplied(const Kinds& kinds) {
   std::map<std::array<int, 2>, double> lengths;
   const auto keyOf = [&](BodyId a, BodyId b) {

@@ -141,9 +141,10 @@ class Deformable {
   void evaluate(const JointStage& stage, bool first);
   void evaluateRows(const JointStage& stage, bool first);
   void findImplied(const Kinds& kinds);
-  void sweepAllLengths();
   // Of points that are solved at once.
   void choosePoints(const Kinds& kinds, std::span<const InverseMass> masses);
+  template <class F>
+  void forEachPair(F&& f);
   template <class F>
   void forEachBlockOf(const PointFactor::Pressed& pressed, F&& f) const;
   void layOutPoints();

@@ -62,13 +62,26 @@ void Deformable::choosePoints(const Kinds& kinds, std::span<const InverseMass> m
   if (any) {
     points_ = std::make_unique<PointFactor>();
     kinds_ = &kinds;
+    findImplied(kinds);
     takeLengthsAtOnce();
     layOutPoints();
     if (points_->factor.fill() <= kMostFill) return;
     points_.reset();
   }
-  forEachRow(rows_, kinds,
-             [&]<class C>(const C&, SweptRow<C>& swept, double) { swept.isAtOnce = false; });
+  forEachRow(rows_, kinds, [&]<class C>(const C&, SweptRow<C>& swept, double) {
+    swept.isAtOnce = swept.isImplied = false;
+  });
+}
+
+// f(item, swept, row) of what is solved at once, in the order of the factor's rows.
+template <class F>
+void Deformable::forEachPair(F&& f) {
+  auto next = points_->rows.begin();
+  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    if constexpr (Pair<C>) {
+      if (swept.isAtOnce) f(item, swept, *next++);
+    }
+  });
 }
 
 // f(row, column, block) of what a contact that presses by its stiffness adds to the matrix, always
@@ -104,13 +117,16 @@ void Deformable::layOutPoints() {
   std::vector<std::array<int, 2>> entries;
   const auto add = [&](int row, int column, const auto&) { entries.push_back({row, column}); };
   for (int k = 0; k < count; ++k) add(k, k, 0);
+  std::size_t rows = 0;
   forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
     if constexpr (Pair<C>) {
       if (!swept.isAtOnce) return;
       swept.place = {placeOf(item.bodies[0]), placeOf(item.bodies[1])};
       forEachBlock(swept.place, add);
+      ++rows;
     }
   });
+  f.rows.resize(rows);
   std::vector<std::array<int, 2>> pieces;
   layOutLengths(pieces);
   for (const auto& piece : pieces) forEachBlock(piece, add);
@@ -135,13 +151,8 @@ void Deformable::factorizePoints() {
   f.stale = false;
   f.factor.begin();
   for (const Mat3& mass : f.massive) f.factor.give(mass);
-  std::size_t at = 0;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
-    if constexpr (Pair<C>) {
-      if (!swept.isAtOnce) return;
-      const Mat3& block = f.rows[at++].stiffness;
-      forEachBlock(swept.place, [&](int, int, double sign) { f.factor.give(sign * block); });
-    }
+  forEachPair([&]<class C>(const C&, SweptRow<C>& swept, PointFactor::Row& row) {
+    forEachBlock(swept.place, [&](int, int, double sign) { f.factor.give(sign * row.stiffness); });
   });
   for (PointFactor::Length& length : f.lengths) {
     length.answer.clear();
@@ -166,24 +177,18 @@ void Deformable::takeStiffness(std::span<const JointMass> masses, bool first) {
     f.massive[k] = Mat3::Identity() / mass.inverse;
     if (f.turn[k] >= 0) f.massive[f.turn[k]] = inverseOrNan(mass.inertia);
   }
-  std::size_t at = 0;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (Pair<C>) {
-      if (!swept.isAtOnce) return;
-      if (at == f.rows.size()) f.rows.emplace_back();
-      PointFactor::Row& row = f.rows[at++];
-      if (first) row.given.setZero();
-      row.stiffness.setZero();
-      row.turning.setZero();
-      if (!swept.swept) return;
-      const auto& j = swept.row.linear[0];
-      if constexpr (std::is_same_v<C, Link>) {
-        const double length = item.length + swept.row.c[0];
-        row.turning = turningStiffness(j.transpose(), -swept.pulled[0], length);
-      }
-      row.stiffness = row.turning;
-      row.stiffness.noalias() += j.transpose() * stiffnessOf<C>(swept, gives_) * j;
+  forEachPair([&]<class C>(const C& item, SweptRow<C>& swept, PointFactor::Row& row) {
+    if (first) row.given.setZero();
+    row.stiffness.setZero();
+    row.turning.setZero();
+    if (!swept.swept) return;
+    const auto& j = swept.row.linear[0];
+    if constexpr (std::is_same_v<C, Link>) {
+      const double length = item.length + swept.row.c[0];
+      row.turning = turningStiffness(j.transpose(), -swept.pulled[0], length);
     }
+    row.stiffness = row.turning;
+    row.stiffness.noalias() += j.transpose() * stiffnessOf<C>(swept, gives_) * j;
   });
   takeLengths(first);
 }
@@ -228,23 +233,18 @@ Vec3 Deformable::turnedBy(int place, std::span<const Displacement> moved) const 
 void Deformable::aimAtPoints(bool positions, std::span<const Displacement> moved) {
   PointFactor& f = *points_;
   std::fill(f.change.begin(), f.change.end(), Vec3::Zero());
-  std::size_t at = 0;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (Pair<C>) {
-      if (!swept.isAtOnce) return;
-      PointFactor::Row& row = f.rows[at++];
-      if (!swept.swept) return;
-      const auto [a, b] = swept.place;
-      const auto& j = swept.row.linear[0];
-      const typename Set<C>::Vector error = swept.constant + along(item, swept, moved) +
-                                            swept.alpha * swept.lambda +
-                                            gives_ * swept.own * swept.lambda;
-      swept.next = -(stiffnessOf<C>(swept, gives_) * error);
-      row.next = j.transpose() * (swept.lambda + swept.next) -
-                 row.turning * (turnedBy(a, moved) - turnedBy(b, moved)) - row.given;
-      if (a >= 0) f.change[a] += row.next;
-      if (b >= 0) f.change[b] -= row.next;
-    }
+  forEachPair([&]<class C>(const C& item, SweptRow<C>& swept, PointFactor::Row& row) {
+    if (!swept.swept) return;
+    const auto [a, b] = swept.place;
+    const auto& j = swept.row.linear[0];
+    const typename Set<C>::Vector error = swept.constant + along(item, swept, moved) +
+                                          swept.alpha * swept.lambda +
+                                          gives_ * swept.own * swept.lambda;
+    swept.next = -(stiffnessOf<C>(swept, gives_) * error);
+    row.next = j.transpose() * (swept.lambda + swept.next) -
+               row.turning * (turnedBy(a, moved) - turnedBy(b, moved)) - row.given;
+    if (a >= 0) f.change[a] += row.next;
+    if (b >= 0) f.change[b] -= row.next;
   });
   aimAtLengths(moved);
   for (const PointFactor::Pressed& pressed : f.pressed) {
@@ -260,21 +260,15 @@ void Deformable::aimAtPoints(bool positions, std::span<const Displacement> moved
 // By what each row gives to both of its ends: their momentum stays, to rounding.
 void Deformable::takeChange(double share, std::span<const JointMass> masses,
                             std::span<Displacement> moved) {
-  PointFactor& f = *points_;
-  std::size_t at = 0;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (Pair<C>) {
-      if (!swept.isAtOnce) return;
-      PointFactor::Row& row = f.rows[at++];
-      if (!swept.swept) return;
-      const Vec3 apart = apartBy(swept), push = share * (row.next - row.stiffness * apart);
-      row.given += push;
-      swept.lambda +=
-          share * (swept.next - stiffnessOf<C>(swept, gives_) * (swept.row.linear[0] * apart));
-      const auto [a, b] = item.bodies;
-      moved[a].u += masses[a].inverse * push;
-      moved[b].u -= masses[b].inverse * push;
-    }
+  forEachPair([&]<class C>(const C& item, SweptRow<C>& swept, PointFactor::Row& row) {
+    if (!swept.swept) return;
+    const Vec3 apart = apartBy(swept), push = share * (row.next - row.stiffness * apart);
+    row.given += push;
+    swept.lambda +=
+        share * (swept.next - stiffnessOf<C>(swept, gives_) * (swept.row.linear[0] * apart));
+    const auto [a, b] = item.bodies;
+    moved[a].u += masses[a].inverse * push;
+    moved[b].u -= masses[b].inverse * push;
   });
   takeLengthChange(share, masses, moved);
   for (SoftRow* row : contacts_) {
@@ -322,19 +316,13 @@ double Deformable::solvePoints(bool positions, bool first, std::span<const Joint
 // From here on: J u = 0 of what holds, and what gives way goes on as it did, while friction moves
 // it.
 void Deformable::preparePointVelocities(std::span<const Displacement> moved) {
-  PointFactor& f = *points_;
   turnFrom(moved);
-  std::size_t at = 0;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (Pair<C>) {
-      if (!swept.isAtOnce) return;
-      PointFactor::Row& row = f.rows[at++];
-      if (!swept.swept) return;
-      const bool gives = !swept.alpha.isZero(0);
-      swept.constant = -(gives_ * swept.own * swept.lambda);
-      if (gives) swept.constant -= along(item, swept, moved) + swept.alpha * swept.lambda;
-      row.given = swept.row.linear[0].transpose() * swept.lambda;
-    }
+  forEachPair([&]<class C>(const C& item, SweptRow<C>& swept, PointFactor::Row& row) {
+    if (!swept.swept) return;
+    const bool gives = !swept.alpha.isZero(0);
+    swept.constant = -(gives_ * swept.own * swept.lambda);
+    if (gives) swept.constant -= along(item, swept, moved) + swept.alpha * swept.lambda;
+    row.given = swept.row.linear[0].transpose() * swept.lambda;
   });
   prepareLengthVelocities();
 }
