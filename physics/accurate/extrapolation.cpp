@@ -16,9 +16,12 @@ constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one
 
 }  // namespace
 
-Extrapolation::Extrapolation(SymmetricStep step) : step_(std::move(step)) {}
+Extrapolation::Extrapolation(SymmetricStep step)
+    : step_(std::move(step)),
+      choice_(2, 2, Tableau::kMostRows,
+              step_.isTree() ? StepChoice::Rows::kSideBySide : StepChoice::Rows::kInTurn) {}
 
-// The next T_j1.
+// n steps from where it stands, to row_.
 bool Extrapolation::run(int n, double from, double whole, const Surroundings& world,
                         const TrialPoses& trial) {
   const double h = whole / n;
@@ -29,13 +32,40 @@ bool Extrapolation::run(int n, double from, double whole, const Surroundings& wo
   }
   row_ = step_.state();
   step_.takeMomenta(row_);
-  tableau_.add(n, 2, row_.pose, row_.velocity);
   return true;
 }
 
-void Extrapolation::takeBest() {
+// The tableau of a step. False: some row of it fails.
+bool Extrapolation::fill(int columns, double from, double whole, const Surroundings& world,
+                         const TrialPoses& trial) {
+  error_ = coarser_ = std::numeric_limits<double>::infinity();
+  tableau_.clear(step_.bodies().size());
+  if (step_.isTree() && !step_.stepSideBySide(columns, whole, world, trial)) return false;
+  for (int j = 1; j <= columns; ++j) {
+    const int n = stepsOfRow_ * j;
+    if (step_.isTree()) {
+      step_.tree().end(n, row_);
+    } else if (!run(n, from, whole, world, trial)) {
+      return false;
+    }
+    tableau_.add(n, 2, row_.pose, row_.velocity);
+    coarser_ = error_;
+    if (j > 1) error_ = tableau_.difference(step_.size(), whole, step_.levers());
+  }
+  return true;
+}
+
+// Goes to T_kk. False: its joints do not close.
+bool Extrapolation::takeBest(const Surroundings& world, const TrialPoses& trial) {
   tableau_.best(state_.pose, state_.velocity);
-  step_.takeSpins(state_);
+  if (step_.isTree()) {
+    step_.goOnFrom(state_, trial);
+  } else {
+    step_.takeSpins(state_);
+    if (!step_.project(state_, tolerance_, world, trial)) return false;
+  }
+  state_ = step_.state();
+  return true;
 }
 
 bool Extrapolation::advance(IslandState& state, double time, double accuracy,
@@ -53,27 +83,19 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     // A step ends where a table has a point: no order counts across one.
     const double whole = nextPart(world.kinds, from, wanted, least);
     tolerance_ = step_.size() * std::max(kFinest, kClosed * allowed / (columns * columns));
-    double error = std::numeric_limits<double>::infinity(), coarser = error;  // and of one less
-    tableau_.clear(step_.bodies().size());
-    for (int j = 1; j <= columns && run(stepsOfRow_ * j, from, whole, world, trial); ++j) {
-      coarser = error;
-      if (j > 1) error = tableau_.difference(step_.size(), whole, step_.levers());
-    }
-    const bool isDone = tableau_.rows() == columns;
-    if (!isDone || !(error <= allowed)) {
+    const bool isDone = fill(columns, from, whole, world, trial);
+    if (!isDone || !(error_ <= allowed)) {
       ++report.rejected;
-      choice_.reject(whole, isDone ? error : std::numeric_limits<double>::infinity(), allowed);
+      choice_.reject(whole, isDone ? error_ : std::numeric_limits<double>::infinity(), allowed);
       continue;
     }
-    takeBest();
-    if (!step_.project(state_, tolerance_, world, trial)) return choice_.forget(), false;
-    state_ = step_.state();
+    if (!takeBest(world, trial)) return choice_.forget(), false;
     ++report.accepted;
     report.order = std::max(report.order, 2 * columns);
     report.least = report.least > 0 ? std::min(report.least, whole) : whole;
-    report.estimate += error;
+    report.estimate += error_;
     left = whole == left ? 0 : left - whole;
-    choice_.accept(whole, error, coarser, allowed, time);
+    choice_.accept(whole, error_, coarser_, allowed, time);
   }
   state = state_;
   return true;
@@ -86,13 +108,8 @@ bool Extrapolation::advanceBy(IslandState& state, double time, int columns, int 
   tolerance_ = kFinest * step_.size();
   const double h = time / steps;
   for (int s = 0; s < steps; ++s) {
-    tableau_.clear(step_.bodies().size());
-    for (int j = 1; j <= columns; ++j) {
-      if (!run(j, world.time + s * h, h, world, trial)) return false;
-    }
-    takeBest();
-    step_.project(state_, tolerance_, world, trial);
-    state_ = step_.state();
+    if (!fill(columns, world.time + s * h, h, world, trial)) return false;
+    takeBest(world, trial);
   }
   state = state_;
   return true;

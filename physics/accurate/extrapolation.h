@@ -29,14 +29,17 @@ class Extrapolation {
 
  private:
   bool run(int n, double from, double whole, const Surroundings& world, const TrialPoses& trial);
-  void takeBest();
+  bool fill(int columns, double from, double whole, const Surroundings& world,
+            const TrialPoses& trial);
+  bool takeBest(const Surroundings& world, const TrialPoses& trial);
 
   SymmetricStep step_;
   Tableau tableau_;
   IslandState state_, row_;
-  StepChoice choice_{2, 2, Tableau::kMostRows};
-  double tolerance_ = 0;  // that joints close to
-  int stepsOfRow_ = 1;    // of the first; the others have so many times more
+  StepChoice choice_;
+  double error_ = 0, coarser_ = 0;  // of the tableau, and of one column less
+  double tolerance_ = 0;            // that joints close to
+  int stepsOfRow_ = 1;              // of the first; the others have so many times more
 };
 
 }  // namespace physics

@@ -15,8 +15,6 @@ constexpr double kSafety = 0.9, kLeastChange = 0.1, kMostChange = 4;
 constexpr double kFailed = 0.5, kRegained = 1.05;
 constexpr double kPays = 0.9;  // another order does where it takes so much of the work: as ODEX
 
-int workOf(int columns) { return columns * (columns + 1) / 2; }
-
 }  // namespace
 
 double rootOf(double x, int n) {
@@ -32,6 +30,10 @@ double rootOf(double x, int n) {
     root = next;
   }
   return scale * root;
+}
+
+int StepChoice::workOf(int columns) const {
+  return rows_ == Rows::kSideBySide ? columns : columns * (columns + 1) / 2;
 }
 
 void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_, resolves_, lost_); }

@@ -14,9 +14,11 @@ inline constexpr double kShareOfStep = 0.01;
 
 class StepChoice {
  public:
+  // Rows of a tableau are made one after the other, or side by side, by so many steps at once.
+  enum class Rows : char { kInTurn, kSideBySide };
   // With no fewer than `least` columns, and no more than `most`.
-  StepChoice(int power, int least, int most)
-      : power_(power), least_(least), most_(most), columns_(least) {}
+  StepChoice(int power, int least, int most, Rows rows = Rows::kInTurn)
+      : power_(power), least_(least), most_(most), columns_(least), rows_(rows) {}
 
   int columns() const { return columns_; }
   // Of what is left of `time`.
@@ -48,8 +50,10 @@ class StepChoice {
   void archive(Archive& a);
 
  private:
+  int workOf(int columns) const;
   double stepFor(double step, double error, int columns, double allowed) const;
   int power_, least_, most_, columns_;
+  Rows rows_;
   bool resolves_ = false;
   double lost_ = 0;
   double wanted_ = 0;                                       // [s]; 0: not known

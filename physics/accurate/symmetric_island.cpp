@@ -88,6 +88,11 @@ SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const Bod
     present_.rows[i].form = ahead_[i].form = form;
     isSeenAway_ = isSeenAway_ || !shape.isGap;
   }
+  std::vector<BallTree::Body> of;
+  for (std::size_t i = 0; i < size; ++i) {
+    of.push_back({moves_[i], turns(i), world.bodies.mass[bodies_[i]], inertia_[i]});
+  }
+  tree_ = BallTree::of(topology_, anchors_, of);
   for (auto* list : {&error_, &lambda_}) list->assign(rows, Vec3::Zero());
   for (auto* list : {&shift_, &twist_, &momentum_}) list->assign(size, Vec3::Zero());
 }
@@ -141,8 +146,7 @@ void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) 
   for (std::size_t i = 0; i < refs_.size(); ++i) {
     const JointShape& shape = topology_->shapes[i];
     if (!shape.pulls) continue;
-    const IslandRow& here = present_.rows[i];
-    const bool isGap = here.form == IslandRow::Form::kGap;
+    const bool isGap = shape.isGap;
     if (!isGap) {
       clear(row);
       evaluateRow(world.kinds, refs_[i], {trial.start, trial.start, 1}, row);
@@ -150,8 +154,9 @@ void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) 
     }
     for (int b = 0; b < shape.bodyCount; ++b) {
       const int place = shape.body[b];
-      const Vec3& arm = isGap ? here.arm[b] : row.arm[b];
-      reach(present_.state.pose[place].x + arm);
+      const Pose& pose = present_.state.pose[place];
+      const Vec3 arm = isGap ? pose.q * anchors_[i][b] : row.arm[b];
+      reach(pose.x + arm);
       if (turns(place)) levers_[place] = std::max(levers_[place], arm.norm());
     }
   }
@@ -195,6 +200,31 @@ bool SymmetricStep::project(const IslandState& state, double tolerance, const Su
   first_ = present_;
   hasStepped_ = false;
   return closed;
+}
+
+bool SymmetricStep::stepSideBySide(int columns, double time, const Surroundings& world,
+                                   const TrialPoses& trial) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    shift_[i] = pullOn(i, world);
+    twist_[i] = world.loads[bodies_[i]].torque;
+  }
+  tree_->push(shift_, twist_);
+  tree_->run(columns, present_.state, time);
+  put(present_.state, trial.start);
+  for (int n = 1; n <= columns && !limits_.empty(); ++n) {
+    tree_->end(n, to_);
+    put(to_, trial.end);
+    if (meetsLimit(world, trial)) return false;
+  }
+  return true;
+}
+
+void SymmetricStep::goOnFrom(const IslandState& state, const TrialPoses& trial) {
+  present_.state = state;
+  tree_->place(present_.state);
+  for (const std::span<Pose> poses : {trial.now, trial.start, trial.end}) {
+    put(present_.state, poses);
+  }
 }
 
 template <class Change>

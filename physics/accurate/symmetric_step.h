@@ -8,19 +8,17 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "physics/accurate/ball_tree.h"
 #include "physics/accurate/cross_system.h"
+#include "physics/accurate/island_state.h"
 #include "physics/motion/free_motion.h"
 #include "physics/solver/joint_row.h"
 
 namespace physics {
-
-struct IslandState {  // by place in SymmetricStep::bodies()
-  std::vector<Pose> pose;
-  std::vector<Velocity> velocity;
-};
 
 // Poses by BodyId that rows are evaluated at. Bodies of other islands stand where they are.
 struct TrialPoses {
@@ -82,6 +80,13 @@ class SymmetricStep {
   // From where it is by h, joints closed to `tolerance` [m, rad]. False: they do not close, or a
   // limit is met.
   bool step(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
+  // A tree of ball sockets: of the state of the last `set`, motions of 1, 2, ... `columns` steps,
+  // which tree().end() tells. False: a limit is met.
+  bool isTree() const { return tree_.has_value(); }
+  bool stepSideBySide(int columns, double time, const Surroundings& world, const TrialPoses& trial);
+  const BallTree& tree() const { return *tree_; }
+  // To the turns and spins of a state near the ends of those.
+  void goOnFrom(const IslandState& state, const TrialPoses& trial);
   // To a state near the present one: joints closed, and no velocity that opens them. It is then as
   // after `set`.
   bool project(const IslandState& state, double tolerance, const Surroundings& world,
@@ -149,6 +154,7 @@ class SymmetricStep {
   bool isSeenAway_ = false;  // some rows are evaluated at TrialPoses
   bool isMade_ = true;       // rows and factor are there; false after its bytes were read
   std::shared_ptr<const JointTopology> topology_;
+  std::optional<BallTree> tree_;
   Present present_, first_;
   bool hasStepped_ = false;  // from first_
   RowSystem all_;            // with the forces

@@ -14,7 +14,7 @@ namespace physics {
 
 class Tableau {
  public:
-  static constexpr int kMostRows = 5;  // order 10, where the error has even powers
+  static constexpr int kMostRows = 7;  // order 14, where the error has even powers
 
   // For so many bodies, from the beginning.
   void clear(std::size_t bodies);

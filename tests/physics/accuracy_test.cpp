@@ -23,7 +23,8 @@ Settings asking(std::optional<double> accuracy) {
   return settings;
 }
 
-// A rigid body of three different moments on a ball socket, swinging and turning.
+// A rigid body of three different moments on a ball socket, swinging and turning; and a spring of
+// its own on it, with which it is no tree of sockets.
 struct Swing {
   Kinds kinds;
   Bodies bodies;
@@ -31,7 +32,7 @@ struct Swing {
   JointTopologies known;
   std::vector<JointRef> refs;
 
-  Swing() {
+  explicit Swing(double stiffness) {
     add({}, Vec3::Zero(), Motion::kStatic);
     add({{-1, 0, 0}, Quat::Identity()}, {0.1, 0.2, 0.25}, Motion::kDynamic);
     int place = 0;
@@ -40,12 +41,23 @@ struct Swing {
         BallSocket joint;
         joint.bodies = {0, 1};
         joint.anchors = {Vec3::Zero(), Vec3(1, 0, 0)};
-        kind.set.items.push_back(joint);
-        kind.set.tuned.push_back({1, 0});
-        refs = {{place, 0}};
+        add(joint, place, kind);
+      }
+      if constexpr (std::is_same_v<typename std::decay_t<decltype(kind)>::Item, VectorSpring>) {
+        VectorSpring spring;
+        spring.bodies = {0, 1};
+        spring.anchors = {Vec3(-1, -1, 0.5), Vec3::Zero()};
+        spring.stiffness = stiffness;
+        if (stiffness > 0) add(spring, place, kind);
       }
       ++place;
     });
+  }
+  template <class Item, class Kind>
+  void add(const Item& item, int place, Kind& kind) {
+    kind.set.items.push_back(item);
+    kind.set.tuned.push_back({1, 0});
+    refs.push_back({place, 0});
   }
   void add(const Pose& pose, const Vec3& inertia, Motion motion) {
     const bool moves = motion == Motion::kDynamic;
@@ -63,19 +75,21 @@ struct Swing {
     const Surroundings world{kinds, bodies, loads, Vec3(0, -kGravity, 0)};
     std::vector<Pose> now = bodies.pose, start = now, later = now;
     const std::vector<BodyId> moving = {1};
-    Extrapolation motion(SymmetricStep(refs, moving, world, known));
+    SymmetricStep step(refs, moving, world, known);
+    EXPECT_EQ(step.isTree(), refs.size() == 1);
+    Extrapolation motion(std::move(step));
     IslandState state{bodies.pose, bodies.velocity};
-    state.velocity[1].w = Vec3(0.5, 0, 0);
+    state.velocity[1].w = Vec3(3, 0, 0);
     EXPECT_TRUE(motion.advanceBy(state, 2, columns, steps, world, {now, start, later}));
     return state.pose[1].x;
   }
 };
 
-class OrderOfExtrapolation : public ::testing::TestWithParam<int> {};
+class OrderOfExtrapolation : public ::testing::TestWithParam<std::tuple<int, double>> {};
 
 TEST_P(OrderOfExtrapolation, IsTwiceTheColumns) {
-  Swing swing;
-  const int columns = GetParam();
+  const auto [columns, stiffness] = GetParam();
+  Swing swing(stiffness);
   const Vec3 exact = swing.end(4, 256);  // of more steps rounding, of some 1e-12, shows
   const double coarse = (swing.end(columns, 32) - exact).norm();
   const double fine = (swing.end(columns, 64) - exact).norm();
@@ -84,7 +98,15 @@ TEST_P(OrderOfExtrapolation, IsTwiceTheColumns) {
   EXPECT_NEAR(std::log2(coarse / fine), 2 * columns, 0.4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Accuracy, OrderOfExtrapolation, ::testing::Values(1, 2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Accuracy, OrderOfExtrapolation,
+                         ::testing::Combine(::testing::Values(1, 2, 3, 4),
+                                            ::testing::Values(0.0, 2.0)));
+
+// Two ways to step, that have nothing but the equations of motion in common.
+TEST(Accuracy, OfATreeOfSocketsIsThatOfAnyIsland) {
+  Swing tree(0), island(1e-9);  // N/m
+  EXPECT_LT((tree.end(4, 256) - island.end(4, 256)).norm(), 1e-8);
+}
 
 // Three bars that fall from the level, hung up in a row; in front of them another such row, or
 // none.
