@@ -23,6 +23,19 @@ std::vector<BodyId> bodiesOf(std::span<const JointRef> refs, std::span<const Bod
   return all;
 }
 
+// m; 0: it is no link.
+double lengthOf(const Kinds& kinds, JointRef ref) {
+  double length = 0;
+  int place = 0;
+  forEachKind(kinds, [&](const auto& kind) {
+    if constexpr (std::is_same_v<typename std::decay_t<decltype(kind)>::Item, Link>) {
+      if (place == ref.kind) length = kind.set.items[ref.item].length;
+    }
+    ++place;
+  });
+  return length;
+}
+
 }  // namespace
 
 // Of a body by itself: its shape's, and no less than its mass reaches.
@@ -88,11 +101,15 @@ SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const Bod
     present_.rows[i].form = ahead_[i].form = form;
     isSeenAway_ = isSeenAway_ || !shape.isGap;
   }
-  std::vector<BallTree::Body> of;
+  std::vector<JointTree::Body> of;
   for (std::size_t i = 0; i < size; ++i) {
     of.push_back({moves_[i], turns(i), world.bodies.mass[bodies_[i]], inertia_[i]});
   }
-  tree_ = BallTree::of(topology_, anchors_, of);
+  std::vector<JointTree::Joint> joints;
+  for (std::size_t i = 0; i < rows; ++i) {
+    joints.push_back({anchors_[i], lengthOf(world.kinds, refs_[i])});
+  }
+  tree_ = JointTree::of(topology_, joints, of);
   for (auto* list : {&error_, &lambda_}) list->assign(rows, Vec3::Zero());
   for (auto* list : {&shift_, &twist_, &momentum_}) list->assign(size, Vec3::Zero());
 }

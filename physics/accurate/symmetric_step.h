@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
-#include "physics/accurate/ball_tree.h"
 #include "physics/accurate/cross_system.h"
 #include "physics/accurate/island_state.h"
+#include "physics/accurate/joint_tree.h"
 #include "physics/motion/free_motion.h"
 #include "physics/solver/joint_row.h"
 
@@ -84,7 +84,7 @@ class SymmetricStep {
   // which tree().end() tells. False: a limit is met.
   bool isTree() const { return tree_.has_value(); }
   bool stepSideBySide(int columns, double time, const Surroundings& world, const TrialPoses& trial);
-  const BallTree& tree() const { return *tree_; }
+  const JointTree& tree() const { return *tree_; }
   // To the turns and spins of a state near the ends of those.
   void goOnFrom(const IslandState& state, const TrialPoses& trial);
   // To a state near the present one: joints closed, and no velocity that opens them. It is then as
@@ -154,7 +154,7 @@ class SymmetricStep {
   bool isSeenAway_ = false;  // some rows are evaluated at TrialPoses
   bool isMade_ = true;       // rows and factor are there; false after its bytes were read
   std::shared_ptr<const JointTopology> topology_;
-  std::optional<BallTree> tree_;
+  std::optional<JointTree> tree_;
   Present present_, first_;
   bool hasStepped_ = false;  // from first_
   RowSystem all_;            // with the forces

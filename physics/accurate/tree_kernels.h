@@ -62,8 +62,7 @@ Three axisOf(const Turn& q, int axis) {
 
 void drift(const TreeView& s, const TreeNum& step) {
   const Four h = load(step);
-  for (int i = 0; i < s.bodyCount; ++i) {
-    if (!s.bodies[i].turns) continue;
+  for (int i = 0; i < s.motionCount; ++i) {
     TreeMotion& motion = s.motion[i];
     const Turn q = turned(load3<Four>(motion.omega) * h, loadTurn(motion.q));
     const Four scale = whole(1.5) - whole(0.5) * (q.w * q.w + squaredNorm(q.v));
@@ -121,14 +120,14 @@ Columns turnedBy(const Columns& m, const Three& r) {
   return {m.y * r.z - m.z * r.y, m.z * r.x - m.x * r.z, m.x * r.y - m.y * r.x};
 }
 
-// What an end of a joint accelerates by without it.
-Three lookAtEnd(const TreeBody& body, const TreeMotion& motion, const TreeTurn& turn, Four half,
-                TreeJoint& joint, int b) {
+// What an end of a socket accelerates by without it.
+Three lookAtEnd(const TreeView& s, const TreeBody& body, Four half, TreeJoint& joint, int b) {
   const Three pull = wholes(body.pull);
-  if (!body.turns) return pull;
+  if (body.turner < 0) return pull;
+  const TreeTurn& turn = s.turns[body.turner];
   const Columns yields = loadColumns(turn.yields);
   const Three arm = loadColumns(turn.axis) * wholes(joint.anchor[b]);
-  const Three omega = load3<Four>(motion.omega), speed = cross(omega, arm);
+  const Three omega = load3<Four>(s.motion[body.turner].omega), speed = cross(omega, arm);
   const auto at = [&](const Three& alpha) {
     return cross(alpha, arm) + (cross(omega, cross(alpha, arm)) + cross(alpha, speed)) * half;
   };
@@ -142,7 +141,7 @@ Columns couple(const TreeView& s, int k, int p, int i, int q) {
   const TreeBody& body = s.bodies[s.shapes[i].body[q]];
   const Four mass = whole(body.mass), zero = whole(0);
   Columns sum = {{mass, zero, zero}, {zero, mass, zero}, {zero, zero, mass}};
-  if (body.turns) {
+  if (body.turner >= 0) {
     sum = sum + turnedBy(loadColumns(s.joints[k].yields[p]), load3<Four>(s.joints[i].arm[q]));
   }
   const Columns none = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}};
@@ -205,48 +204,132 @@ void eliminate(const TreeView& s) {
   }
 }
 
-void kick(const TreeView& s, const TreeNum& step) {
-  const Four h = load(step), half = whole(0.5) * h;
+void kickSockets(const TreeView& s, const TreeNum& step) {
+  const Four h = load(step), half = whole(0.5) * h, zero = whole(0);
   for (int i = 0; i < s.bodyCount; ++i) {
-    if (s.bodies[i].turns) prepare(s.bodies[i], s.motion[i], half, s.turns[i]);
+    const int turner = s.bodies[i].turner;
+    if (turner >= 0) prepare(s.bodies[i], s.motion[turner], half, s.turns[turner]);
   }
   for (int i = 0; i < s.jointCount; ++i) {
     const JointShape& shape = s.shapes[i];
-    const Four zero = whole(0);
     Three open = {zero, zero, zero};
     for (int b = 0; b < shape.bodyCount; ++b) {
       if (!shape.moves[b]) continue;
-      const int body = shape.body[b];
-      const Three at =
-          lookAtEnd(s.bodies[body], s.motion[body], s.turns[body], half, s.joints[i], b);
+      const Three at = lookAtEnd(s, s.bodies[shape.body[b]], half, s.joints[i], b);
       open = b == 0 ? open + at : open - at;
     }
     store3(s.joints[i].lambda, open);
   }
   build(s);
   eliminate(s);
-  // What joints twist with, then what that accelerates by.
+  // By what joints twist with.
   for (int i = 0; i < s.jointCount; ++i) {
     const JointShape& shape = s.shapes[i];
     const Three lambda = load3<Four>(s.joints[i].lambda);
     for (int b = 0; b < shape.bodyCount; ++b) {
-      if (!s.bodies[shape.body[b]].turns) continue;
+      const int turner = s.bodies[shape.body[b]].turner;
+      if (turner < 0) continue;
+      TreeTurn& turn = s.turns[turner];
       const Three twist = cross(load3<Four>(s.joints[i].arm[b]), lambda);
-      const Columns yields = loadColumns(s.turns[shape.body[b]].yields);
-      TreeNum* to = s.turns[shape.body[b]].free;
-      const Three more = yields * twist;
-      store3(to, b == 0 ? load3<Four>(to) + more : load3<Four>(to) - more);
+      const Three more = loadColumns(turn.yields) * twist, free = load3<Four>(turn.free);
+      store3(turn.free, b == 0 ? free + more : free - more);
     }
   }
-  for (int i = 0; i < s.bodyCount; ++i) {
-    if (!s.bodies[i].turns) continue;
+  for (int i = 0; i < s.motionCount; ++i) {
     TreeNum* to = s.motion[i].omega;
     store3(to, load3<Four>(to) + load3<Four>(s.turns[i].free) * h);
   }
 }
 
+// A link's points part along it, u, by l omega^2: u . (a_1 - a_0) + l omega . (omega + h alpha) = 0
+// with l alpha = u x (a_1 - a_0), and so J' = u + h omega x u.
+void lookAtLinks(const TreeView& s, Four h) {
+  for (int i = 0; i < s.jointCount; ++i) {
+    TreeJoint& joint = s.joints[i];
+    const Turn q = loadTurn(s.motion[i].q);
+    const Three start = wholes(joint.anchor[0]), across = cross(q.v, start) * whole(2);
+    const Three u = start + across * q.w + cross(q.v, across),
+                omega = load3<Four>(s.motion[i].omega);
+    const Three row = u + cross(omega, u) * h;
+    store3(joint.arm[0], u);
+    store3(joint.arm[1], row);
+    const TreeBody &first = s.bodies[s.shapes[i].body[0]], &second = s.bodies[s.shapes[i].body[1]];
+    store(joint.lambda[0], dot(row, wholes(second.pull) - wholes(first.pull)) +
+                               squaredNorm(omega) * whole(joint.length));
+    store(s.diagonal[i], dot(row, u) * whole(first.mass + second.mass));
+  }
+  for (int i = 0; i < s.jointCount; ++i) {
+    const Three u = load3<Four>(s.joints[i].arm[0]), row = load3<Four>(s.joints[i].arm[1]);
+    for (int n = 0; n < s.columns[i].count; ++n) {
+      const JointBelow& below = s.below[s.columns[i].start + n];
+      const JointMeeting& meeting = s.meetings[below.block];
+      const int p = meeting.later[0], q = meeting.earlier[0];
+      const double mass = s.bodies[s.shapes[i].body[q]].mass;
+      const Four shared = whole(p == q ? mass : -mass);
+      const TreeJoint& other = s.joints[below.to];
+      store(s.lower[below.block], dot(load3<Four>(other.arm[1]), u) * shared);
+      store(s.upper[below.block], dot(row, load3<Four>(other.arm[0])) * shared);
+    }
+  }
+}
+
+void subtract(TreeNum& from, Four what) { store(from, load(from) - what); }
+
+void eliminateLinks(const TreeView& s) {
+  for (int i = 0; i < s.jointCount; ++i) {
+    const JointColumn& column = s.columns[i];
+    const JointBelow* below = s.below + column.start;
+    const Four pivot = whole(1) / load(s.diagonal[i]), right = load(s.joints[i].lambda[0]);
+    store(s.diagonal[i], pivot);
+    for (int q = 0; q < column.count; ++q) {
+      const Four lower = load(s.lower[below[q].block]) * pivot;
+      const Four upper = load(s.upper[below[q].block]);
+      store(s.lower[below[q].block], lower);
+      subtract(s.joints[below[q].to].lambda[0], lower * right);
+      subtract(s.diagonal[below[q].to], lower * upper);
+      const int* target = s.updates + column.updates + q * (q + 1) / 2;
+      for (int p = 0; p < q; ++p) {
+        subtract(s.lower[target[p]], lower * load(s.upper[below[p].block]));
+        subtract(s.upper[target[p]], load(s.lower[below[p].block]) * upper);
+      }
+    }
+  }
+  for (int i = s.jointCount; i-- > 0;) {
+    const JointColumn& column = s.columns[i];
+    Four y = load(s.joints[i].lambda[0]);
+    for (int q = 0; q < column.count; ++q) {
+      const JointBelow& below = s.below[column.start + q];
+      y = y + load(s.upper[below.block]) * load(s.joints[below.to].lambda[0]);
+    }
+    store(s.joints[i].lambda[0], whole(0) - load(s.diagonal[i]) * y);
+  }
+}
+
+void kickLinks(const TreeView& s, const TreeNum& step) {
+  const Four h = load(step);
+  lookAtLinks(s, h);
+  eliminateLinks(s);
+  for (int i = 0; i < s.bodyCount; ++i) store3(s.alpha + 3 * i, wholes(s.bodies[i].pull));
+  for (int i = 0; i < s.jointCount; ++i) {
+    const Three pull = load3<Four>(s.joints[i].arm[0]) * load(s.joints[i].lambda[0]);
+    for (int b = 0; b < 2; ++b) {
+      const int body = s.shapes[i].body[b];
+      const double mass = s.bodies[body].mass;
+      store3(s.alpha + 3 * body,
+             load3<Four>(s.alpha + 3 * body) + pull * whole(b == 1 ? mass : -mass));
+    }
+  }
+  for (int i = 0; i < s.jointCount; ++i) {
+    const int* body = s.shapes[i].body;
+    const Three part = load3<Four>(s.alpha + 3 * body[1]) - load3<Four>(s.alpha + 3 * body[0]);
+    const Three turn = cross(load3<Four>(s.joints[i].arm[0]), part);
+    TreeNum* to = s.motion[i].omega;
+    store3(to, load3<Four>(to) + turn * (h * whole(1 / s.joints[i].length)));
+  }
+}
+
 }  // namespace
 
-const TreeKernels KERNELS = {drift, kick};
+const TreeKernels KERNELS = {drift, kickSockets, kickLinks};
 
 }  // namespace physics

@@ -108,6 +108,43 @@ TEST(Accuracy, OfATreeOfSocketsIsThatOfAnyIsland) {
   EXPECT_LT((tree.end(4, 256) - island.end(4, 256)).norm(), 1e-8);
 }
 
+std::vector<Pose> after(World& world, double seconds, AccuracyReport* sum = nullptr) {
+  const int steps = static_cast<int>(std::lround(seconds / world.settings().dt));
+  for (int k = 0; k < steps; ++k) {
+    const AccuracyReport of = world.step().accuracy;
+    if (sum == nullptr) continue;
+    sum->accepted += of.accepted;
+    sum->rejected += of.rejected;
+    sum->order = std::max(sum->order, of.order);
+    sum->estimate += of.estimate;
+  }
+  return world.bodies().pose;
+}
+
+// Points on links that fall from the level, and a spring too weak to tell, with which they are no
+// tree of links.
+TEST(Accuracy, OfATreeOfLinksIsThatOfAnyIsland) {
+  const auto end = [](double stiffness) {
+    World world(asking(1e-9));
+    BodyId last = kWorldBody;
+    for (int i = 1; i <= 3; ++i) {
+      BodyDef point;
+      point.pose.x = Vec3(0.3 * i, 0, 0.1 * i * i);
+      const BodyId body = world.add(point);
+      LinkDef link;
+      link.bodies = {last, body};
+      world.add(link);
+      last = body;
+    }
+    SpringDef spring;
+    spring.bodies = {kWorldBody, last};
+    spring.stiffness = stiffness;
+    if (stiffness > 0) world.add(spring);
+    return after(world, 1)[last].x;
+  };
+  EXPECT_LT((end(0) - end(1e-9)).norm(), 1e-7);
+}
+
 // Three bars that fall from the level, hung up in a row; in front of them another such row, or
 // none.
 World bars(std::optional<double> accuracy, double stiffness = 0) {
@@ -134,19 +171,6 @@ World bars(std::optional<double> accuracy, double stiffness = 0) {
   spring.restLength = 0.9;
   world.add(spring);
   return world;
-}
-
-std::vector<Pose> after(World& world, double seconds, AccuracyReport* sum = nullptr) {
-  const int steps = static_cast<int>(std::lround(seconds / world.settings().dt));
-  for (int k = 0; k < steps; ++k) {
-    const AccuracyReport of = world.step().accuracy;
-    if (sum == nullptr) continue;
-    sum->accepted += of.accepted;
-    sum->rejected += of.rejected;
-    sum->order = std::max(sum->order, of.order);
-    sum->estimate += of.estimate;
-  }
-  return world.bodies().pose;
 }
 
 TEST(Accuracy, IsDeliveredByBarsThatWhip) {

@@ -1,7 +1,10 @@
-// Trees of bodies on ball sockets: what their motions keep, and that lanes are bytes apart.
-#include "physics/accurate/ball_tree.h"
+// Trees of bodies on ball sockets and of points on links: what their motions keep, and that lanes
+// are bytes apart.
+#include "physics/accurate/joint_tree.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "physics/base/rotation.h"
 #include "physics/world.h"
@@ -9,65 +12,67 @@
 namespace physics {
 namespace {
 
+enum class Of { kSockets, kLinks };
+
 // A trunk of unequal moments that two arms hang on, of which one holds a hand; held by the world at
-// its foot, or flying.
+// its foot, or flying. Or points and links in the place of bodies and sockets.
 struct Figure {
-  std::vector<BallTree::Body> bodies;
-  std::vector<std::array<Vec3, 2>> anchors;
+  std::vector<JointTree::Body> bodies;
+  std::vector<JointTree::Joint> joints;
   IslandState start;
   std::shared_ptr<const JointTopology> topology;
 
-  explicit Figure(bool isHeld) {
-    std::vector<std::array<int, 2>> pairs = {{1, 2}, {1, 3}, {3, 4}};
-    std::vector<std::array<Vec3, 2>> at = {{Vec3(0.3, 0.4, 0), Vec3(-0.3, 0, 0)},
-                                           {Vec3(-0.3, 0.4, 0.1), Vec3(0, 0.3, 0)},
-                                           {Vec3(0, -0.3, 0), Vec3(0, 0.1, 0.05)}};
+  Figure(Of of, bool isHeld) {
+    const double length = of == Of::kLinks ? 0.5 : 0;
+    std::vector<std::array<BodyId, 2>> pairs = {{1, 2}, {1, 3}, {3, 4}};
+    std::vector<JointTree::Joint> at = {{{Vec3(0.3, 0.4, 0), Vec3(-0.3, 0, 0)}, length},
+                                        {{Vec3(-0.3, 0.4, 0.1), Vec3(0, 0.3, 0)}, length},
+                                        {{Vec3(0, -0.3, 0), Vec3(0, 0.1, 0.05)}, length}};
     if (isHeld) {
       pairs.push_back({0, 1});
-      at.push_back({Vec3::Zero(), Vec3(0, -0.5, 0)});
+      at.push_back({{Vec3::Zero(), Vec3(0, -0.5, 0)}, length});
     }
-    add({}, 0, Vec3::Zero());
-    add({Vec3(0, 0.5, 0), Quat::Identity()}, 5, Vec3(0.4, 0.1, 0.3));
-    for (int k = 0; k < 3; ++k) add({}, 1.0 + k, Vec3(0.02, 0.05, 0.03));
-    start.velocity[1].w = Vec3(0.4, 1, -2);
-    start.velocity[2].w = Vec3(3, 0, 1);
-    start.velocity[4].w = Vec3(0, -5, 2);
+    const bool turns = of == Of::kSockets;
+    if (isHeld) add(Vec3::Zero(), 0, false, Vec3::Zero());
+    add(Vec3(0, 0.5, 0), 5, turns, Vec3(0.4, 0.1, 0.3));
+    add(Vec3(0.3, 0.9, 0), 1, turns, Vec3(0.02, 0.05, 0.03));
+    add(Vec3(-0.3, 0.8, 0.1), 2, turns, Vec3(0.02, 0.05, 0.03));
+    add(Vec3(-0.5, 0.5, -0.1), 3, turns, Vec3(0.02, 0.05, 0.03));
+    const std::size_t first = isHeld ? 1 : 0;
+    start.velocity[first] = {Vec3(1, 0, 2), Vec3(0.4, 1, -2)};
+    start.velocity[first + 1] = {Vec3(-1, 1, 1), Vec3(3, 0, 1)};
+    start.velocity[first + 3] = {Vec3(0, 2, -3), Vec3(0, -5, 2)};
 
-    const int first = isHeld ? 0 : 1;
-    std::vector<InverseMass> masses;
-    for (const BallTree::Body& body : bodies) {
+    std::vector<InverseMass> masses(isHeld ? 0 : 1);
+    std::vector<BodyId> ids;
+    for (const JointTree::Body& body : bodies) {
+      ids.push_back(static_cast<BodyId>(masses.size()));
       masses.push_back({body.moves ? 1 / body.mass : 0, Mat3::Zero()});
     }
-    std::vector<BodyId> ids;
-    for (int k = first; k < 5; ++k) ids.push_back(k);
     std::vector<JointRef> refs;
     std::vector<JointKind> kinds;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       refs.push_back({0, static_cast<int>(k)});
       JointKind kind;
-      kind.rows = 3;
+      kind.rows = turns ? 3 : 1;
       kind.bodyCount = 2;
-      kind.bodies = {pairs[k][0], pairs[k][1]};
-      kind.seen = JointSeen::kGap;
+      kind.bodies = pairs[k];
+      kind.seen = turns ? JointSeen::kGap : JointSeen::kByKind;
+      kind.hasLinear = true;
       kinds.push_back(kind);
     }
     JointTopologies known;
     topology = topologyOf(refs, kinds, ids, masses, known);
-    for (const int i : topology->order) anchors.push_back(at[i]);
-    if (!isHeld) {
-      bodies.erase(bodies.begin());
-      start.pose.erase(start.pose.begin());
-      start.velocity.erase(start.velocity.begin());
-    }
+    for (const int i : topology->order) joints.push_back(at[i]);
   }
-  void add(const Pose& pose, double mass, const Vec3& inertia) {
-    bodies.push_back({mass > 0, mass > 0, mass, inertia});
-    start.pose.push_back(pose);
+  void add(const Vec3& x, double mass, bool turns, const Vec3& inertia) {
+    bodies.push_back({mass > 0, turns, mass, inertia});
+    start.pose.push_back({x, Quat::Identity()});
     start.velocity.push_back({});
   }
-  // No joint of it open, at rest where it begins.
-  BallTree tree() {
-    std::optional<BallTree> made = BallTree::of(topology, anchors, bodies);
+  // No joint of it is open where it begins.
+  JointTree tree() {
+    std::optional<JointTree> made = JointTree::of(topology, joints, bodies);
     EXPECT_TRUE(made.has_value());
     const std::vector<Vec3> pull(bodies.size(), Vec3(0, -9.81, 0)),
         none(bodies.size(), Vec3::Zero());
@@ -79,7 +84,7 @@ struct Figure {
 };
 
 IslandState after(Figure& figure, int columns, int steps, double time) {
-  BallTree tree = figure.tree();
+  JointTree tree = figure.tree();
   IslandState state = figure.start;
   for (int k = 0; k < steps; ++k) {
     tree.run(columns, state, time / steps);
@@ -123,10 +128,16 @@ bool isSame(const IslandState& a, const IslandState& b) {
   return true;
 }
 
-TEST(BallTree, GivesTheSameBytesInAnyRegisters) {
+class JointTrees : public ::testing::TestWithParam<Of> {};
+INSTANTIATE_TEST_SUITE_P(Both, JointTrees, ::testing::Values(Of::kSockets, Of::kLinks),
+                         [](const auto& of) {
+                           return of.param == Of::kLinks ? "Links" : "Sockets";
+                         });
+
+TEST_P(JointTrees, GiveTheSameBytesInAnyRegisters) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2 here";
-  Figure figure(true);
-  BallTree tree = figure.tree();
+  Figure figure(GetParam(), true);
+  JointTree tree = figure.tree();
   IslandState narrow, wide;
   for (const double time : {0.01, 3.0}) {  // turns of more than a radian too
     tree.run(7, figure.start, time, kTreeKernelsSse2);
@@ -137,9 +148,9 @@ TEST(BallTree, GivesTheSameBytesInAnyRegisters) {
   }
 }
 
-TEST(BallTree, MotionsDoNotKnowWhoIsBesideThem) {
-  Figure figure(true);
-  BallTree tree = figure.tree();
+TEST_P(JointTrees, MotionsDoNotKnowWhoIsBesideThem) {
+  Figure figure(GetParam(), true);
+  JointTree tree = figure.tree();
   for (int columns = 1; columns <= 7; ++columns) {
     for (int n = 1; n <= columns; ++n) {
       IslandState beside, alone, stepped = figure.start;
@@ -160,27 +171,27 @@ TEST(BallTree, MotionsDoNotKnowWhoIsBesideThem) {
 }
 
 // A step back from where a step ends, spins turned round, is where it began.
-TEST(BallTree, StepsAreSymmetricInTime) {
-  Figure figure(true);
-  BallTree tree = figure.tree();
-  IslandState state;
+TEST_P(JointTrees, StepsAreSymmetricInTime) {
+  Figure figure(GetParam(), true);
+  JointTree tree = figure.tree();
+  IslandState state, back;
   tree.run(1, figure.start, 0.05);
   tree.end(1, state);
   EXPECT_GT((state.pose[4].x - figure.start.pose[4].x).norm(), 0.01);
   for (Velocity& velocity : state.velocity) velocity = {-velocity.v, -velocity.w};
-  IslandState back;
   tree.run(1, state, 0.05);
   tree.end(1, back);
   for (std::size_t i = 1; i < back.pose.size(); ++i) {
     EXPECT_LT((back.pose[i].x - figure.start.pose[i].x).norm(), 1e-13);
+    EXPECT_LT((back.velocity[i].v + figure.start.velocity[i].v).norm(), 1e-12);
     EXPECT_LT((back.velocity[i].w + figure.start.velocity[i].w).norm(), 1e-12);
   }
 }
 
-TEST(BallTree, KeepsWhatItsMotionKeeps) {
+TEST_P(JointTrees, KeepWhatTheirMotionKeeps) {
   for (const bool isHeld : {false, true}) {
-    Figure figure(isHeld);
-    const IslandState coarse = after(figure, 1, 800, 1), fine = after(figure, 1, 1600, 1);
+    Figure figure(GetParam(), isHeld);
+    const IslandState coarse = after(figure, 1, 1600, 1), fine = after(figure, 1, 3200, 1);
     const Sums start = sumsOf(figure, figure.start), a = sumsOf(figure, coarse),
                b = sumsOf(figure, fine);
     const double errorOfA = std::abs(a.energy - start.energy),
@@ -189,16 +200,43 @@ TEST(BallTree, KeepsWhatItsMotionKeeps) {
     EXPECT_NEAR(errorOfA / errorOfB, 4, 0.4);
     if (isHeld) continue;
     double mass = 0;
-    for (const BallTree::Body& body : figure.bodies) mass += body.mass;
+    for (const JointTree::Body& body : figure.bodies) mass += body.mass;
     EXPECT_LT((b.momentum - start.momentum - mass * Vec3(0, -9.81, 0)).norm(), 1e-11);
     EXPECT_NEAR((a.spin - start.spin).norm() / (b.spin - start.spin).norm(), 4, 0.4);
   }
 }
 
-TEST(BallTree, IsNoneWhereJointsCloseALoop) {
-  Figure figure(true);
-  figure.bodies[4].moves = false;  // the hand stands as well
-  EXPECT_FALSE(BallTree::of(figure.topology, figure.anchors, figure.bodies).has_value());
+// What T_kk says of places is not of links as long as they are.
+TEST_P(JointTrees, CloseWhatIsNearAnEnd) {
+  Figure figure(GetParam(), true);
+  JointTree tree = figure.tree();
+  IslandState end;
+  tree.run(2, figure.start, 0.02);
+  tree.end(2, end);
+  IslandState near = end;
+  for (std::size_t i = 1; i < near.pose.size(); ++i) {
+    near.pose[i].x += 1e-3 * Vec3(1, static_cast<double>(i), -2);
+    near.velocity[i].v += 1e-3 * Vec3(1, static_cast<double>(i), -2);
+  }
+  tree.place(near);
+  for (std::size_t k = 0; GetParam() == Of::kLinks && k < figure.joints.size(); ++k) {
+    const int* body = figure.topology->shapes[k].body;
+    const Vec3 way = near.pose[body[1]].x - near.pose[body[0]].x,
+               parting = near.velocity[body[1]].v - near.velocity[body[0]].v;
+    EXPECT_NEAR(way.norm(), 0.5, 1e-15);
+    EXPECT_NEAR(way.dot(parting), 0, 1e-14);
+  }
+  for (std::size_t i = 1; i < near.pose.size(); ++i) {
+    EXPECT_LT((near.pose[i].x - end.pose[i].x).norm(), GetParam() == Of::kLinks ? 0.05 : 1e-14);
+  }
+}
+
+TEST(JointTree, IsNoneWhereItMayNotBe) {
+  Figure held(Of::kSockets, true), points(Of::kLinks, true);
+  held.bodies[4].moves = false;  // the hand stands as well
+  EXPECT_FALSE(JointTree::of(held.topology, held.joints, held.bodies).has_value());
+  points.bodies[2].turns = true;
+  EXPECT_FALSE(JointTree::of(points.topology, points.joints, points.bodies).has_value());
 }
 
 }  // namespace
