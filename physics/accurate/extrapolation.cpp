@@ -18,7 +18,7 @@ constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one
 
 Extrapolation::Extrapolation(SymmetricStep step)
     : step_(std::move(step)),
-      choice_(2, 2, Tableau::kMostRows,
+      choice_(2, 2, Tableau::kMostRows, StepChoice::Allowed::kOfTime,
               step_.isTree() ? StepChoice::Rows::kSideBySide : StepChoice::Rows::kInTurn) {}
 
 // n steps from where it stands, to row_.
@@ -71,7 +71,8 @@ bool Extrapolation::takeBest(const Surroundings& world, const TrialPoses& trial)
 bool Extrapolation::advance(IslandState& state, double time, double accuracy,
                             const Surroundings& world, const TrialPoses& trial,
                             AccuracyReport& report) {
-  const double allowed = kShareOfStep * accuracy;
+  if (step_.isLimited(world.kinds)) return choice_.forget(), false;
+  const double inAll = kShareOfFrame * accuracy;
   state_ = state;
   step_.set(state_, world, trial);
   stepsOfRow_ = step_.dampsWithin(time, world, trial) ? 2 : 1;
@@ -82,6 +83,7 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     if (wanted < least) return choice_.forget(), false;
     // A step ends where a table has a point: no order counts across one.
     const double whole = nextPart(world.kinds, from, wanted, least);
+    const double allowed = inAll * (whole / time);
     tolerance_ = step_.size() * std::max(kFinest, kClosed * allowed / (columns * columns));
     const bool isDone = fill(columns, from, whole, world, trial);
     if (!isDone || !(error_ <= allowed)) {

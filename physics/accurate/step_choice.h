@@ -1,5 +1,6 @@
 // The next step H and the number k of columns of its tableau, at the least work for the time: what
-// T_kk and T_k,k-1 differ by goes with H^(p (k - 1) + 1), where the error has powers of h^p.
+// T_kk and T_k,k-1 differ by goes with H^(p (k - 1) + 1), where the error has powers of h^p; over
+// the time, with one power less.
 // Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9.
 #pragma once
 
@@ -9,16 +10,23 @@ namespace physics {
 
 class Archive;
 
-// A step may err by this part of the accuracy: errors add up, and grow with the motion.
-inline constexpr double kShareOfStep = 0.01;
+// A frame's steps may err by this part of the accuracy: errors add up, and grow with the motion.
+inline constexpr double kShareOfFrame = 0.01;
 
 class StepChoice {
  public:
   // Rows of a tableau are made one after the other, or side by side, by so many steps at once.
   enum class Rows : char { kInTurn, kSideBySide };
+  // What is allowed of a step: always the same, or in proportion to its time.
+  enum class Allowed : char { kOfStep, kOfTime };
   // With no fewer than `least` columns, and no more than `most`.
-  StepChoice(int power, int least, int most, Rows rows = Rows::kInTurn)
-      : power_(power), least_(least), most_(most), columns_(least), rows_(rows) {}
+  StepChoice(int power, int least, int most, Allowed allowed, Rows rows)
+      : power_(power),
+        least_(least),
+        most_(most),
+        columns_(least),
+        allowed_(allowed),
+        rows_(rows) {}
 
   int columns() const { return columns_; }
   // Of what is left of `time`.
@@ -53,6 +61,7 @@ class StepChoice {
   int workOf(int columns) const;
   double stepFor(double step, double error, int columns, double allowed) const;
   int power_, least_, most_, columns_;
+  Allowed allowed_;
   Rows rows_;
   bool resolves_ = false;
   double lost_ = 0;

@@ -220,6 +220,11 @@ void SymmetricStep::stop(double h) {
   if (h > 0) present_.h = h;
 }
 
+bool SymmetricStep::isLimited(const Kinds& kinds) const {
+  return std::any_of(limits_.begin(), limits_.end(),
+                     [&](const JointRef ref) { return carries(kinds, ref); });
+}
+
 bool SymmetricStep::meetsLimit(const Surroundings& world, const TrialPoses& trial) const {
   JointRow row;
   for (const JointRef ref : limits_) {

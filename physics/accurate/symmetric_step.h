@@ -56,6 +56,9 @@ class SymmetricStep {
   // False: some are not smooth, or of more than two bodies, or of one that moves by itself.
   static bool takes(std::span<const JointRef> refs, const Surroundings& world);
 
+  // A limit holds something now: where that ends no step tells.
+  bool isLimited(const Kinds& kinds) const;
+
   std::span<const BodyId> bodies() const { return bodies_; }
   bool moves(std::size_t place) const { return moves_[place]; }
   bool turns(std::size_t place) const { return moves_[place] && !inverseInertia_[place].isZero(0); }

@@ -82,7 +82,7 @@ bool SmallSteps::Impl::advanceAccurately(Model& w, BodyId root, double dt, Accur
     b.velocity[bodies[i]] = island.state.velocity[i];
   }
   StepListening::tell(
-      {root, moving, dt, island.motion.step().size(), kShareOfStep * *w.settings.accuracy, of});
+      {root, moving, dt, island.motion.step().size(), kShareOfFrame * *w.settings.accuracy, of});
   add(of, report);
   return true;
 }

@@ -45,7 +45,7 @@ double SmallSteps::Impl::sizeOf(const Bodies& b, const Batch& batch) const {
 
 // What one of its steps may err by, of its size.
 double SmallSteps::Impl::allowedError(const Model& w) const {
-  return std::max(kShareOfStep * *w.settings.accuracy, kKnown);
+  return std::max(kShareOfFrame * *w.settings.accuracy, kKnown);
 }
 
 void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {

@@ -43,7 +43,7 @@ double SmallSteps::Impl::smallSag(const Model& w, const KeptContact& c, double s
   const Bodies& b = w.bodies;
   const double way = w.settings.dt * (b.velocity[c.a].v - b.velocity[c.b].v).norm();
   const bool isKnown = w.settings.accuracy && choices[rootOf(w, c)].resolves();
-  const double asked = isKnown ? kShareOfStep * *w.settings.accuracy : 0;
+  const double asked = isKnown ? kShareOfFrame * *w.settings.accuracy : 0;
   return std::max(std::max(kLargestSag, asked) * size,
                   std::min(kLargestSagOfWay * way, kLargestStrain * size));
 }

@@ -66,7 +66,8 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   inertias.resize(bodies);
   spins.resize(bodies);
   meanSpins.resize(bodies, Vec3::Zero());
-  choices.resize(bodies, StepChoice(1, 2, kMostTouchingColumns));
+  choices.resize(bodies, StepChoice(1, 2, kMostTouchingColumns, StepChoice::Allowed::kOfStep,
+                                    StepChoice::Rows::kInTurn));
   load.resize(bodies);
   sag.resize(bodies);
   drawn.resize(bodies);

@@ -131,6 +131,12 @@ void write(K& kind, int index, const Vec3& lambda, double dt) {
   }
 }
 
+template <class K>
+bool carriesItem(const K& kind, int index) {
+  if constexpr (kFits<typename K::Item>) return !kind.set.lambda[index].total.isZero(0);
+  return false;
+}
+
 template <class C>
 Nature natureOfItem(const C& item) {
   if constexpr (!kFits<C>) return Nature::kOther;
@@ -148,6 +154,7 @@ struct Calls {
   JointKind (*describe)(const Kinds&, int);
   void (*evaluate)(const Kinds&, int, const Configuration&, JointRow&);
   void (*write)(Kinds&, int, const Vec3&, double);
+  bool (*carries)(const Kinds&, int);
 };
 
 template <std::size_t... I>
@@ -160,7 +167,8 @@ constexpr auto callsOf(std::index_sequence<I...>) {
       },
       [](Kinds& kinds, int item, const Vec3& lambda, double dt) {
         write(std::get<I>(kinds), item, lambda, dt);
-      }}...};
+      },
+      [](const Kinds& kinds, int item) { return carriesItem(std::get<I>(kinds), item); }}...};
 }
 constexpr auto kCalls = callsOf(std::make_index_sequence<std::tuple_size_v<Kinds>>{});
 
@@ -181,5 +189,7 @@ void evaluateRow(const Kinds& kinds, JointRef ref, const Configuration& at, Join
 void writeMultiplier(Kinds& kinds, JointRef ref, const Vec3& lambda, double dt) {
   kCalls[ref.kind].write(kinds, ref.item, lambda, dt);
 }
+
+bool carries(const Kinds& kinds, JointRef ref) { return kCalls[ref.kind].carries(kinds, ref.item); }
 
 }  // namespace physics

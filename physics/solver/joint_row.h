@@ -55,5 +55,6 @@ Nature natureOf(const Kinds& kinds, JointRef ref);
 JointKind kindOf(const Kinds& kinds, JointRef ref);
 void evaluateRow(const Kinds& kinds, JointRef ref, const Configuration& at, JointRow& row);
 void writeMultiplier(Kinds& kinds, JointRef ref, const Vec3& lambda, double dt);
+bool carries(const Kinds& kinds, JointRef ref);  // it did when it was solved last
 
 }  // namespace physics
