@@ -33,7 +33,8 @@ std::optional<JointTree> JointTree::of(std::shared_ptr<const JointTopology> topo
                                        std::span<const Joint> joints,
                                        std::span<const Body> bodies) {
   const std::vector<JointShape>& shapes = topology->shapes;
-  const bool isOfLinks = std::all_of(joints.begin(), joints.end(),
+  const bool isOfLinks =
+      !joints.empty() && std::all_of(joints.begin(), joints.end(),
                                      [](const Joint& joint) { return joint.length > 0; });
   const auto fits = [&](const JointShape& shape) {
     return shape.bodyCount == 2 && (isOfLinks || shape.isGap);
@@ -45,7 +46,7 @@ std::optional<JointTree> JointTree::of(std::shared_ptr<const JointTopology> topo
   tree.bodiesOf_.assign(bodies.begin(), bodies.end());
   tree.jointsOf_.assign(joints.begin(), joints.end());
   tree.isOfLinks_ = isOfLinks;
-  if (shapes.empty() || !topology->isTree || !std::all_of(shapes.begin(), shapes.end(), fits) ||
+  if (!topology->isTree || !std::all_of(shapes.begin(), shapes.end(), fits) ||
       !std::all_of(bodies.begin(), bodies.end(), mayTurn) || !tree.findWalk(*topology)) {
     return {};
   }
@@ -266,7 +267,7 @@ void JointTree::walkLinks(IslandState& state) const {
   }
 }
 
-// Of what flies: it knows nothing of joints.
+// Of what flies: it knows nothing of joints. Nor does the momentum about it of one body alone.
 void JointTree::takeCentre(IslandState& state) const {
   double mass = 0;
   Vec3 x = Vec3::Zero(), v = Vec3::Zero();
@@ -281,6 +282,13 @@ void JointTree::takeCentre(IslandState& state) const {
     state.pose[i].x += x / mass;
     state.velocity[i].v += v / mass;
   }
+  if (bodies_.size() > 1 || !bodiesOf_[0].turns) return;
+  const Vec3& inertia = bodiesOf_[0].inertia;
+  const double* torque = bodies_[0].torque;
+  const Quat &before = from_.pose[0].q, &now = state.pose[0].q;
+  const Vec3 momentum = before * inertia.cwiseProduct(before.conjugate() * from_.velocity[0].w) +
+                        time_ * Vec3(torque[0], torque[1], torque[2]);
+  state.velocity[0].w = now * (now.conjugate() * momentum).cwiseQuotient(inertia);
 }
 
 }  // namespace physics

@@ -1,9 +1,9 @@
 // A tree of bodies on ball sockets, or of points on links, held by the world at one of them at the
-// most. Where its bodies, or links, are turned to tells where they are, so that no joint opens, and
-// how they turn how fast they are: a step turns them at their spins by h/2, kicks them by h there,
-// and turns them by h/2 once more. It is symmetric in time, as SymmetricStep's, and iterates
-// nothing. Motions of 1, 2, ... k steps over the same time, as extrapolation has them, are made
-// side by side in lanes.
+// most; or one body alone. Where its bodies, or links, are turned to tells where they are, so that
+// no joint opens, and how they turn how fast they are: a step turns them at their spins by h/2,
+// kicks them by h there, and turns them by h/2 once more. It is symmetric in time, as
+// SymmetricStep's, and iterates nothing. Motions of 1, 2, ... k steps over the same time, as
+// extrapolation has them, are made side by side in lanes.
 #pragma once
 
 #include <array>

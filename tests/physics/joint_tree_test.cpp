@@ -231,6 +231,37 @@ TEST_P(JointTrees, CloseWhatIsNearAnEnd) {
   }
 }
 
+// About its middle axis, with a little of the others: it turns over again and again.
+TEST(JointTree, OfOneBodyTumblesFreely) {
+  JointTopologies known;
+  const std::vector<BodyId> ids = {1};
+  const std::vector<InverseMass> masses = {{}, {1, Mat3::Zero()}};
+  const std::vector<JointTree::Body> bodies = {{true, true, 1, Vec3(0.1, 0.2, 0.25)}};
+  std::optional<JointTree> tree = JointTree::of(topologyOf({}, {}, ids, masses, known), {}, bodies);
+  ASSERT_TRUE(tree.has_value());
+  const std::vector<Vec3> none = {Vec3::Zero()};
+  tree->push(none, none);
+  IslandState start;
+  start.pose.resize(1);
+  start.velocity = {{Vec3(1, 2, 3), Vec3(0.1, 10, 0.2)}};
+  const auto momentum = [&](const IslandState& state) -> Vec3 {
+    const Quat& q = state.pose[0].q;
+    return q * bodies[0].inertia.cwiseProduct(q.conjugate() * state.velocity[0].w);
+  };
+  const auto energyOff = [&](int columns, int steps) {
+    IslandState state = start;
+    for (int k = 0; k < steps; ++k) {
+      tree->run(columns, state, 2.0 / steps);
+      tree->end(columns, state);
+    }
+    EXPECT_LT((state.pose[0].x - Vec3(2, 4, 6)).norm(), 1e-12);
+    EXPECT_LT((momentum(state) - momentum(start)).norm(), 1e-12);
+    return std::abs(momentum(state).dot(state.velocity[0].w) -
+                    momentum(start).dot(start.velocity[0].w));
+  };
+  EXPECT_LT(energyOff(1, 2000), 1e-3);  // J of 20
+}
+
 TEST(JointTree, IsNoneWhereItMayNotBe) {
   Figure held(Of::kSockets, true), points(Of::kLinks, true);
   held.bodies[4].moves = false;  // the hand stands as well
