@@ -20,6 +20,8 @@
 
 namespace physics {
 
+class Archive;
+
 // Poses by BodyId that rows are evaluated at. Bodies of other islands stand where they are.
 struct TrialPoses {
   std::span<Pose> now, start, end;
@@ -60,6 +62,7 @@ class SymmetricStep {
   bool isLimited(const Kinds& kinds) const;
 
   std::span<const BodyId> bodies() const { return bodies_; }
+  bool isJoined() const { return !refs_.empty(); }
   bool moves(std::size_t place) const { return moves_[place]; }
   bool turns(std::size_t place) const { return moves_[place] && !inverseInertia_[place].isZero(0); }
   double size() const { return size_; }  // m: the largest extent that the island has had

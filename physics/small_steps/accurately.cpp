@@ -1,6 +1,7 @@
 // Islands that step by an accuracy and touch nothing.
 #include <algorithm>
 
+#include "physics/base/profile.h"
 #include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps_impl.h"
 
@@ -69,10 +70,12 @@ bool SmallSteps::Impl::advanceAccurately(Model& w, BodyId root, double dt, Accur
     island.state.velocity[i] = b.velocity[bodies[i]];
   }
   AccuracyReport of;
-  if (!island.motion.advance(island.state, dt, *w.settings.accuracy, surroundingsOf(w, now),
-                             {trialNow, trialStart, trialEnd}, of)) {
-    return false;
-  }
+  profileScope(island.motion.step().isJoined() ? "direct" : "motion");
+  const bool isMade =
+      island.motion.advance(island.state, dt, *w.settings.accuracy, surroundingsOf(w, now),
+                            {trialNow, trialStart, trialEnd}, of);
+  profileScope("");
+  if (!isMade) return false;
   int moving = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!island.motion.step().moves(i)) continue;
