@@ -50,7 +50,7 @@ bool Extrapolation::fill(int columns, double from, double whole, const Surroundi
     }
     tableau_.add(n, 2, row_.pose, row_.velocity);
     coarser_ = error_;
-    if (j > 1) error_ = tableau_.difference(step_.size(), whole, step_.levers());
+    if (j > 1) error_ = tableau_.difference(step_.size(), lasting_, step_.levers());
   }
   return true;
 }
@@ -75,6 +75,8 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
   const double inAll = kShareOfFrame * accuracy;
   state_ = state;
   step_.set(state_, world, trial);
+  lasting_ = time / kShareOfFrame;
+  if (step_.speed() * lasting_ > step_.size()) lasting_ = step_.size() / step_.speed();
   stepsOfRow_ = step_.dampsWithin(time, world, trial) ? 2 : 1;
   for (double left = time; left > 0;) {
     const double from = world.time + (time - left), least = kLeastPart * time;

@@ -182,6 +182,8 @@ void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) 
     reach(present_.state.pose[i].x);
     size_ = std::max(size_, boundingRadius(world.bodies.shape[bodies_[i]]));
     size_ = std::max(size_, levers_[i]);
+    const Velocity& velocity = present_.state.velocity[i];
+    speed_ = std::max(speed_, velocity.v.norm() + levers_[i] * velocity.w.norm());
   }
   size_ = std::max(size_, (high - low).norm());
 }
@@ -272,7 +274,7 @@ void SymmetricStep::restart() {
 
 // `set` makes the rest anew, of the same pose.
 void SymmetricStep::archive(Archive& a) {
-  a(size_, levers_, present_.h, present_.state.pose, present_.state.velocity);
+  a(size_, speed_, levers_, present_.h, present_.state.pose, present_.state.velocity);
   for (auto& [next, change] : present_.pulls) a(next, change);
   if (a.reads()) isMade_ = false;
 }
