@@ -50,7 +50,8 @@ bool Extrapolation::fill(int columns, double from, double whole, const Surroundi
     }
     tableau_.add(n, 2, row_.pose, row_.velocity);
     coarser_ = error_;
-    if (j > 1) error_ = tableau_.difference(step_.size(), lasting_, step_.levers());
+    if (j == 1) continue;
+    error_ = tableau_.difference(step_.size(), std::max(whole, lasting_), step_.levers());
   }
   return true;
 }
@@ -75,9 +76,10 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
   const double inAll = kShareOfFrame * accuracy;
   state_ = state;
   step_.set(state_, world, trial);
-  lasting_ = time / kShareOfFrame;
-  if (step_.speed() * lasting_ > step_.size()) lasting_ = step_.size() / step_.speed();
-  stepsOfRow_ = step_.dampsWithin(time, world, trial) ? 2 : 1;
+  const bool damps = step_.dampsWithin(time, world, trial);
+  stepsOfRow_ = damps ? 2 : 1;
+  const double way = std::max(step_.speed() * time, kShareOfFrame * step_.size());
+  lasting_ = damps ? 0 : time * std::max(step_.size() / way, 1.0);
   for (double left = time; left > 0;) {
     const double from = world.time + (time - left), least = kLeastPart * time;
     const double wanted = choice_.next(left, time);

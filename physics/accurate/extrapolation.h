@@ -38,11 +38,11 @@ class Extrapolation {
   IslandState state_, row_;
   StepChoice choice_;
   double error_ = 0, coarser_ = 0;  // of the tableau, and of one column less
-  // s: what a speed is off by counts as a way for as long as the island takes for its size, and no
-  // longer than errors add up.
+  // s: what a speed is off by counts as a way for as long as the island takes for its size, a frame
+  // at least, and no longer than errors add up; where a damper takes it, within the step.
   double lasting_ = 0;
-  double tolerance_ = 0;            // that joints close to
-  int stepsOfRow_ = 1;              // of the first; the others have so many times more
+  double tolerance_ = 0;  // that joints close to
+  int stepsOfRow_ = 1;    // of the first; the others have so many times more
 };
 
 }  // namespace physics
