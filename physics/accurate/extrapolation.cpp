@@ -14,6 +14,9 @@ constexpr double kClosed = 1e-3;
 constexpr double kFinest = 1e-14;               // of the size: no closer than numbers are
 constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one step
 
+// Rows side by side need a lane each, but that the n-th of k shares one with the (k - n)-th.
+static_assert(Tableau::kMostRows < 2 * kTreeLanes);
+
 }  // namespace
 
 Extrapolation::Extrapolation(SymmetricStep step)

@@ -1,4 +1,4 @@
-// Trees of bodies on ball sockets.
+// Trees of bodies on ball sockets, and of points on links.
 #include "physics/accurate/joint_tree.h"
 
 #include <algorithm>

@@ -167,40 +167,61 @@ void build(const TreeView& s) {
   }
 }
 
-void subtract(TreeNum* from, const Columns& what) { storeColumns(from, loadColumns(from) - what); }
+// A block and what it acts on: three by three, of sockets, or one number, of links.
+void get(const TreeNum* from, Columns& to) { to = loadColumns(from); }
+void get(const TreeNum* from, Three& to) { to = load3<Four>(from); }
+void get(const TreeNum* from, Four& to) { to = load(*from); }
+void set(TreeNum* to, const Columns& a) { storeColumns(to, a); }
+void set(TreeNum* to, const Three& a) { store3(to, a); }
+void set(TreeNum* to, Four a) { store(*to, a); }
+Four inverse(Four a) { return whole(1) / a; }
+Four opposite(Four a) { return whole(0) - a; }
+Three opposite(const Three& a) { return {opposite(a.x), opposite(a.y), opposite(a.z)}; }
+
+template <class T>
+T read(const TreeNum* from) {
+  T to;
+  get(from, to);
+  return to;
+}
+template <class T>
+void subtract(TreeNum* from, const T& what) {
+  set(from, read<T>(from) - what);
+}
 
 // L D U, and lambda <- -A^-1 lambda.
+template <class Block, class Vector>
 void eliminate(const TreeView& s) {
+  constexpr int kNumbers = sizeof(Block) / sizeof(Four);
+  const auto at = [](TreeNum* blocks, int i) { return blocks + kNumbers * i; };
   for (int i = 0; i < s.jointCount; ++i) {
     const JointColumn& column = s.columns[i];
     const JointBelow* below = s.below + column.start;
-    const Columns pivot = inverse(loadColumns(s.diagonal + 9 * i));
-    const Three right = load3<Four>(s.joints[i].lambda);
-    storeColumns(s.diagonal + 9 * i, pivot);
+    const Block pivot = inverse(read<Block>(at(s.diagonal, i)));
+    const Vector right = read<Vector>(s.joints[i].lambda);
+    set(at(s.diagonal, i), pivot);
     for (int q = 0; q < column.count; ++q) {
-      const Columns lower = loadColumns(s.lower + 9 * below[q].block) * pivot;
-      storeColumns(s.lower + 9 * below[q].block, lower);
-      TreeNum* to = s.joints[below[q].to].lambda;
-      store3(to, load3<Four>(to) - lower * right);
-      const Columns upper = loadColumns(s.upper + 9 * below[q].block);
-      subtract(s.diagonal + 9 * below[q].to, lower * upper);
+      const Block lower = read<Block>(at(s.lower, below[q].block)) * pivot;
+      const Block upper = read<Block>(at(s.upper, below[q].block));
+      set(at(s.lower, below[q].block), lower);
+      subtract<Vector>(s.joints[below[q].to].lambda, lower * right);
+      subtract<Block>(at(s.diagonal, below[q].to), lower * upper);
       const int* target = s.updates + column.updates + q * (q + 1) / 2;
       for (int p = 0; p < q; ++p) {
-        subtract(s.lower + 9 * target[p], lower * loadColumns(s.upper + 9 * below[p].block));
-        subtract(s.upper + 9 * target[p], loadColumns(s.lower + 9 * below[p].block) * upper);
+        subtract<Block>(at(s.lower, target[p]), lower * read<Block>(at(s.upper, below[p].block)));
+        subtract<Block>(at(s.upper, target[p]), read<Block>(at(s.lower, below[p].block)) * upper);
       }
     }
   }
   for (int i = s.jointCount; i-- > 0;) {
     const JointColumn& column = s.columns[i];
-    Three y = load3<Four>(s.joints[i].lambda);
+    Vector y = read<Vector>(s.joints[i].lambda);
     for (int q = 0; q < column.count; ++q) {
       const JointBelow& below = s.below[column.start + q];
       // Those after it have the other sign already.
-      y = y + loadColumns(s.upper + 9 * below.block) * load3<Four>(s.joints[below.to].lambda);
+      y = y + read<Block>(at(s.upper, below.block)) * read<Vector>(s.joints[below.to].lambda);
     }
-    const Four zero = whole(0);
-    store3(s.joints[i].lambda, Three{zero, zero, zero} - loadColumns(s.diagonal + 9 * i) * y);
+    set(s.joints[i].lambda, opposite(read<Block>(at(s.diagonal, i)) * y));
   }
 }
 
@@ -221,7 +242,7 @@ void kickSockets(const TreeView& s, const TreeNum& step) {
     store3(s.joints[i].lambda, open);
   }
   build(s);
-  eliminate(s);
+  eliminate<Columns, Three>(s);
   // By what joints twist with.
   for (int i = 0; i < s.jointCount; ++i) {
     const JointShape& shape = s.shapes[i];
@@ -273,42 +294,10 @@ void lookAtLinks(const TreeView& s, Four h) {
   }
 }
 
-void subtract(TreeNum& from, Four what) { store(from, load(from) - what); }
-
-void eliminateLinks(const TreeView& s) {
-  for (int i = 0; i < s.jointCount; ++i) {
-    const JointColumn& column = s.columns[i];
-    const JointBelow* below = s.below + column.start;
-    const Four pivot = whole(1) / load(s.diagonal[i]), right = load(s.joints[i].lambda[0]);
-    store(s.diagonal[i], pivot);
-    for (int q = 0; q < column.count; ++q) {
-      const Four lower = load(s.lower[below[q].block]) * pivot;
-      const Four upper = load(s.upper[below[q].block]);
-      store(s.lower[below[q].block], lower);
-      subtract(s.joints[below[q].to].lambda[0], lower * right);
-      subtract(s.diagonal[below[q].to], lower * upper);
-      const int* target = s.updates + column.updates + q * (q + 1) / 2;
-      for (int p = 0; p < q; ++p) {
-        subtract(s.lower[target[p]], lower * load(s.upper[below[p].block]));
-        subtract(s.upper[target[p]], load(s.lower[below[p].block]) * upper);
-      }
-    }
-  }
-  for (int i = s.jointCount; i-- > 0;) {
-    const JointColumn& column = s.columns[i];
-    Four y = load(s.joints[i].lambda[0]);
-    for (int q = 0; q < column.count; ++q) {
-      const JointBelow& below = s.below[column.start + q];
-      y = y + load(s.upper[below.block]) * load(s.joints[below.to].lambda[0]);
-    }
-    store(s.joints[i].lambda[0], whole(0) - load(s.diagonal[i]) * y);
-  }
-}
-
 void kickLinks(const TreeView& s, const TreeNum& step) {
   const Four h = load(step);
   lookAtLinks(s, h);
-  eliminateLinks(s);
+  eliminate<Four, Four>(s);
   for (int i = 0; i < s.bodyCount; ++i) store3(s.alpha + 3 * i, wholes(s.bodies[i].pull));
   for (int i = 0; i < s.jointCount; ++i) {
     const Three pull = load3<Four>(s.joints[i].arm[0]) * load(s.joints[i].lambda[0]);
