@@ -79,11 +79,19 @@ namespace {
 
 BodyId moverOf(const Bodies& b, const KeptContact& c) { return isMovable(b, c.a) ? c.a : c.b; }
 
+// The velocity with which a body meets another in the step: where nothing holds it yet it falls.
+Vec3 meetingVelocity(const Model& w, const KeptContact& c, BodyId i) {
+  const Vec3& v = w.bodies.velocity[i].v;
+  const bool falls = w.settings.gravity && w.bodies.motion[i] == Motion::kDynamic && !c.isLoaded();
+  return falls ? (v + w.settings.dt * *w.settings.gravity).eval() : v;
+}
+
 // The largest speed that two bodies have along the normal, at a point of their contact.
-double approachOf(const Bodies& b, const KeptContact& c) {
+double approachOf(const Model& w, const KeptContact& c) {
+  const Bodies& b = w.bodies;
   const Vec3 n = normalOf(c, b.pose);
   const auto speedOf = [&](BodyId i, const Vec3& core) {
-    return n.dot(b.velocity[i].v + b.velocity[i].w.cross(b.pose[i].q * core));
+    return n.dot(meetingVelocity(w, c, i) + b.velocity[i].w.cross(b.pose[i].q * core));
   };
   double most = 0;
   for (int k = 0; k < c.count; ++k) {
@@ -106,10 +114,11 @@ int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) 
     const double spin = b.velocity[i].w.norm();
     return spin > 0 ? radius[i] * spin : 0;
   };
-  const double most = (b.velocity[c.a].v - b.velocity[c.b].v).norm() + turning(c.a) + turning(c.b);
-  const double way = kLargestWay * size / w.settings.dt;  // a substep's, by their number
-  if (most <= way * w.settings.substepCount()) return 1;
-  const double count = std::ceil(approachOf(b, c) / way);
+  const Vec3 relative = meetingVelocity(w, c, c.a) - meetingVelocity(w, c, c.b);
+  const double most = relative.norm() + turning(c.a) + turning(c.b);
+  const double allowed = kLargestWay * size / w.settings.dt;  // in a substep, by their number
+  if (most <= allowed * w.settings.substepCount()) return 1;
+  const double count = std::ceil(approachOf(w, c) / allowed);
   return static_cast<int>(std::min<double>(count, kMostSubsteps));
 }
 
