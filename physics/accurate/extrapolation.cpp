@@ -90,7 +90,9 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     if (wanted < least) return choice_.forget(), false;
     // A step ends where a table has a point: no order counts across one.
     const double whole = nextPart(world.kinds, from, wanted, least);
-    const double allowed = inAll * (whole / time);
+    // Where joints close no further than that, speeds of a step are off by it over the step.
+    const double finest = step_.isTree() ? 0 : kFinest * lasting_ * columns / whole;
+    const double allowed = std::max(inAll * (whole / time), finest);
     tolerance_ = step_.size() * std::max(kFinest, kClosed * allowed / (columns * columns));
     const bool isDone = fill(columns, from, whole, world, trial);
     if (!isDone || !(error_ <= allowed)) {

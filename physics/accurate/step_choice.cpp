@@ -10,7 +10,7 @@ namespace physics {
 namespace {
 
 // Of the step that would just do, and of a step from one to the next: what is usual, II.4 there.
-constexpr double kSafety = 0.9, kLeastChange = 0.1, kMostChange = 4;
+constexpr double kSafety = 0.8, kLeastChange = 0.1, kMostChange = 4;
 // A step that cannot be solved, however short it is for its accuracy, bounds those that follow by
 // half of it; the bound goes up with each one that can be, and is where it was after 14 of them.
 constexpr double kFailed = 0.5, kRegained = 1.05;
@@ -54,6 +54,7 @@ double StepChoice::stepFor(double step, double error, int columns, double allowe
 }
 
 void StepChoice::reject(double step, double error, double allowed) {
+  rejected_ = true;
   if (error < 1e300) {
     wanted_ = std::min(stepFor(step, error, columns_, allowed), 0.7 * step);
   } else {
@@ -82,7 +83,9 @@ void StepChoice::accept(double step, double error, double coarser, double allowe
   // One that was cut short tells little of longer ones: these were known before.
   const bool isTrimmed = step < wanted_ && chosen > step;
   const double known = isTrimmed ? wanted_ * std::min(chosen / here, 1.0) : 0;
-  wanted_ = bounded(std::max(chosen, known));
+  const double now = std::max(step, wanted_), next = bounded(std::max(chosen, known));
+  wanted_ = rejected_ ? std::min(next, now) : next;  // what was too long is not tried again at once
+  rejected_ = false;
 }
 
 }  // namespace physics

@@ -44,7 +44,7 @@ class StepChoice {
   }
   // A step that is kept, whatever it errs by. `lost`: that, where no step resolves the motion.
   void giveUp(double lost) {
-    resolves_ = false;
+    resolves_ = rejected_ = false;
     lost_ = lost;
   }
   // What the last step erred by, where none resolves it; 0: one may.
@@ -52,6 +52,7 @@ class StepChoice {
   // The last step erred by no more than was allowed.
   bool resolves() const { return resolves_; }
   void forget() {
+    rejected_ = false;
     wanted_ = 0;
     bound_ = std::numeric_limits<double>::infinity();
   }
@@ -64,6 +65,7 @@ class StepChoice {
   Allowed allowed_;
   Rows rows_;
   bool resolves_ = false;
+  bool rejected_ = false;  // the step before, in the same frame
   double lost_ = 0;
   double wanted_ = 0;                                       // [s]; 0: not known
   double bound_ = std::numeric_limits<double>::infinity();  // longer ones failed [s]
