@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "physics/accurate/lane_rows.h"
 #include "physics/model/factors.h"
 
 namespace physics {
@@ -13,9 +14,6 @@ namespace {
 constexpr double kClosed = 1e-3;
 constexpr double kFinest = 1e-14;               // of the size: no closer than numbers are
 constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one step
-
-// Rows side by side need a lane each, but that the n-th of k shares one with the (k - n)-th.
-static_assert(Tableau::kMostRows < 2 * kTreeLanes);
 
 }  // namespace
 
@@ -38,22 +36,23 @@ bool Extrapolation::run(int n, double from, double whole, const Surroundings& wo
   return true;
 }
 
-// The tableau of a step. False: some row of it fails.
-bool Extrapolation::fill(int columns, double from, double whole, const Surroundings& world,
-                         const TrialPoses& trial) {
+// The tableau of a step, of rows of `first` steps and more. False: some row of it fails.
+bool Extrapolation::fill(int first, int columns, double from, double whole,
+                         const Surroundings& world, const TrialPoses& trial) {
   error_ = coarser_ = std::numeric_limits<double>::infinity();
   tableau_.clear(step_.bodies().size());
-  if (step_.isTree() && !step_.stepSideBySide(columns, whole, world, trial)) return false;
-  for (int j = 1; j <= columns; ++j) {
-    const int n = stepsOfRow_ * j;
-    if (step_.isTree()) {
-      step_.tree().end(n, row_);
+  const bool isTree = step_.isTree();
+  if (isTree && !step_.stepSideBySide(first, columns, whole, world, trial)) return false;
+  for (int row = 0; row < columns; ++row) {
+    const int n = isTree ? first + row : stepsOfRow_ * (row + 1);
+    if (isTree) {
+      step_.tree().end(row, row_);
     } else if (!run(n, from, whole, world, trial)) {
       return false;
     }
     tableau_.add(n, 2, row_.pose, row_.velocity);
+    if (row == 0 || row + 2 < columns) continue;
     coarser_ = error_;
-    if (j == 1) continue;
     error_ = tableau_.difference(step_.size(), std::max(whole, lasting_), step_.levers());
   }
   return true;
@@ -88,16 +87,20 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     const double wanted = choice_.next(left, time);
     const int columns = choice_.columns();
     if (wanted < least) return choice_.forget(), false;
+    const bool isTree = step_.isTree();
+    const RowChoice rows = isTree ? cheapestRows(columns, choice_.wanted(), left, inAll / time)
+                                  : RowChoice{.step = wanted};
     // A step ends where a table has a point: no order counts across one.
-    const double whole = nextPart(world.kinds, from, wanted, least);
+    const double whole = nextPart(world.kinds, from, rows.step, least);
     // Where joints close no further than that, speeds of a step are off by it over the step.
-    const double finest = step_.isTree() ? 0 : kFinest * lasting_ * columns / whole;
+    const double finest = isTree ? rows.noise : kFinest * lasting_ * columns / whole;
     const double allowed = std::max(inAll * (whole / time), finest);
     tolerance_ = step_.size() * std::max(kFinest, kClosed * allowed / (columns * columns));
-    const bool isDone = fill(columns, from, whole, world, trial);
+    const bool isDone = fill(rows.first, columns, from, whole, world, trial);
+    const double step = whole / rows.reach;
     if (!isDone || !(error_ <= allowed)) {
       ++report.rejected;
-      choice_.reject(whole, isDone ? error_ : std::numeric_limits<double>::infinity(), allowed);
+      choice_.reject(step, isDone ? error_ : std::numeric_limits<double>::infinity(), allowed);
       continue;
     }
     if (!takeBest(world, trial)) return choice_.forget(), false;
@@ -106,7 +109,7 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     report.least = report.least > 0 ? std::min(report.least, whole) : whole;
     report.estimate += error_;
     left = whole == left ? 0 : left - whole;
-    choice_.accept(whole, error_, coarser_, allowed, time);
+    choice_.accept(step, error_, coarser_, allowed, time);
   }
   state = state_;
   return true;
@@ -119,7 +122,7 @@ bool Extrapolation::advanceBy(IslandState& state, double time, int columns, int 
   tolerance_ = kFinest * step_.size();
   const double h = time / steps;
   for (int s = 0; s < steps; ++s) {
-    if (!fill(columns, world.time + s * h, h, world, trial)) return false;
+    if (!fill(1, columns, world.time + s * h, h, world, trial)) return false;
     takeBest(world, trial);
   }
   state = state_;

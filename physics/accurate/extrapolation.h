@@ -1,8 +1,8 @@
 // An island to a given time, as accurately as asked: steps H by extrapolation of the symmetric
-// step, whose error has even powers of h only, so that T_kk of tableau.h, in 1, 2, ... k steps, is
-// of order 2k. What T_kk and T_k,k-1 differ by is the estimate of the error; H and k follow from it
-// at the least work for the time. Hairer, Norsett, Wanner, Solving Ordinary Differential Equations
-// I, II.9.
+// step, whose error has even powers of h only, so that T_kk of tableau.h, in 1, 2, ... k steps (or
+// in m, m + 1, ...: lane_rows.h), is of order 2k. What T_kk and T_k,k-1 differ by is the estimate
+// of the error; H and k follow from it at the least work for the time. Hairer, Norsett, Wanner,
+// Solving Ordinary Differential Equations I, II.9.
 #pragma once
 
 #include "physics/accurate/step_choice.h"
@@ -29,7 +29,7 @@ class Extrapolation {
 
  private:
   bool run(int n, double from, double whole, const Surroundings& world, const TrialPoses& trial);
-  bool fill(int columns, double from, double whole, const Surroundings& world,
+  bool fill(int first, int columns, double from, double whole, const Surroundings& world,
             const TrialPoses& trial);
   bool takeBest(const Surroundings& world, const TrialPoses& trial);
 

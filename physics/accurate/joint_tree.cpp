@@ -3,17 +3,10 @@
 
 #include <algorithm>
 
+#include "physics/accurate/lane_rows.h"
+
 namespace physics {
 namespace {
-
-// Motions of 1, 2, ... k steps are k steps in each lane: k; k - 1 and 1; k - 2 and 2 ...
-struct LanePlace {
-  int lane, step;  // the step of the lane that it begins with
-};
-LanePlace placeOf(int n, int columns) {
-  const int other = columns - n;
-  return n >= other ? LanePlace{other, 0} : LanePlace{n, other};
-}
 
 void copyLane(const TreeMotion& from, int lane, TreeMotion& to, int toLane) {
   for (int k = 0; k < 4; ++k) to.q[k].v[toLane] = from.q[k].v[lane];
@@ -161,50 +154,52 @@ void JointTree::begin(int lane) {
   for (std::size_t i = 0; i < motion_.size(); ++i) copyLane(start_[i], lane, motion_[i], lane);
 }
 
-void JointTree::takeEnd(int n, int lane) {
-  TreeMotion* to = ends_.data() + (n - 1) / kTreeLanes * motion_.size();
+void JointTree::takeEnd(int row, int lane) {
+  TreeMotion* to = ends_.data() + row / kTreeLanes * motion_.size();
   for (std::size_t i = 0; i < motion_.size(); ++i) {
-    copyLane(motion_[i], lane, to[i], (n - 1) % kTreeLanes);
+    copyLane(motion_[i], lane, to[i], row % kTreeLanes);
   }
 }
 
 // Half a step is made before the first kick and after the last one: that at the ends together.
-void JointTree::run(int columns, const IslandState& from, double time, const TreeKernels& kernels) {
+void JointTree::run(int first, int columns, const IslandState& from, double time,
+                    const TreeKernels& kernels) {
   from_ = from;
   time_ = time;
   begin();
   ends_.resize((columns + kTreeLanes - 1) / kTreeLanes * motion_.size());
+  const LaneRows rows(first, columns);
   TreeView s = view();
   TreeNum h, way;
-  std::fill_n(h.v, kTreeLanes, time / columns);
-  for (int k = 0; k < columns; ++k) {
+  std::fill_n(h.v, kTreeLanes, time / (first + columns - 1));  // lanes that are done go on, in vain
+  for (int k = 0; k < rows.steps; ++k) {
     way = h;
-    for (int n = 1; n <= columns; ++n) {
-      const LanePlace place = placeOf(n, columns);
-      if (place.step != k) continue;
-      if (k > 0) begin(place.lane);
-      h.v[place.lane] = time / n;
-      way.v[place.lane] = 0.5 * time / n;
+    for (int row = 0; row < columns; ++row) {
+      const auto [lane, step] = rows.of[row];
+      if (step != k) continue;
+      if (k > 0) begin(lane);
+      h.v[lane] = time / (first + row);
+      way.v[lane] = 0.5 * h.v[lane];
     }
     kernels.drift(s, way);
     (isOfLinks_ ? kernels.kickLinks : kernels.kickSockets)(s, h);
-    for (int n = 1; n <= columns; ++n) {
-      const LanePlace place = placeOf(n, columns);
-      if (place.step + n - 1 == k) takeEnd(n, place.lane);
+    for (int row = 0; row < columns; ++row) {
+      const auto [lane, step] = rows.of[row];
+      if (step + first + row == k + 1) takeEnd(row, lane);
     }
   }
-  for (int first = 0; first < columns; first += kTreeLanes) {
+  for (int row = 0; row < columns; row += kTreeLanes) {
     for (int l = 0; l < kTreeLanes; ++l) {
-      way.v[l] = 0.5 * time / std::min(first + l + 1, columns);
+      way.v[l] = 0.5 * time / (first + std::min(row + l, columns - 1));
     }
-    s.motion = ends_.data() + first / kTreeLanes * motion_.size();
+    s.motion = ends_.data() + row / kTreeLanes * motion_.size();
     kernels.drift(s, way);
   }
 }
 
-void JointTree::end(int n, IslandState& state) const {
-  const TreeMotion* from = ends_.data() + (n - 1) / kTreeLanes * motion_.size();
-  const int l = (n - 1) % kTreeLanes;
+void JointTree::end(int row, IslandState& state) const {
+  const TreeMotion* from = ends_.data() + row / kTreeLanes * motion_.size();
+  const int l = row % kTreeLanes;
   const auto turnOf = [&](std::size_t i) {
     const TreeNum* q = from[i].q;
     return Quat(q[0].v[l], q[1].v[l], q[2].v[l], q[3].v[l]);

@@ -2,7 +2,7 @@
 // most; or one body alone. Where its bodies, or links, are turned to tells where they are, so that
 // no joint opens, and how they turn how fast they are: a step turns them at their spins by h/2,
 // kicks them by h there, and turns them by h/2 once more. It is symmetric in time, as
-// SymmetricStep's, and iterates nothing. Motions of 1, 2, ... k steps over the same time, as
+// SymmetricStep's, and iterates nothing. Motions of several numbers of steps over the same time, as
 // extrapolation has them, are made side by side in lanes.
 #pragma once
 
@@ -36,11 +36,11 @@ class JointTree {
 
   // What is the same in all steps: accelerations [m/s^2] and torques [N m], by place.
   void push(std::span<const Vec3> pulls, std::span<const Vec3> torques);
-  // From a state, motions of 1, 2, ... `columns` steps over `time`.
-  void run(int columns, const IslandState& from, double time,
+  // From a state, motions of `first`, first + 1, ... steps over `time`, so many as columns.
+  void run(int first, int columns, const IslandState& from, double time,
            const TreeKernels& kernels = treeKernels());
-  // Where that of n steps ends.
-  void end(int n, IslandState& state) const;
+  // Where one of them ends, counted from 0.
+  void end(int row, IslandState& state) const;
   // Places and velocities there by turns and spins; of links by how they are directed.
   void place(IslandState& state) const;
 
@@ -51,7 +51,7 @@ class JointTree {
   TreeView view();
   void begin();
   void begin(int lane);
-  void takeEnd(int n, int lane);
+  void takeEnd(int row, int lane);
   void beginAt(std::size_t motion, const Quat& turn, const Vec3& omega);
   void walkSockets(IslandState& state) const;
   void walkLinks(IslandState& state) const;

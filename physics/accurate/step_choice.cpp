@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/accurate/lane_rows.h"
 #include "physics/base/archive.h"
 
 namespace physics {
@@ -33,8 +34,10 @@ double rootOf(double x, int n) {
   return n > 1 ? root : x;
 }
 
-int StepChoice::workOf(int columns) const {
-  return rows_ == Rows::kSideBySide ? columns : columns * (columns + 1) / 2;
+// By time.
+double StepChoice::workFor(double step, int columns, double time) const {
+  if (rows_ == Rows::kSideBySide) return cheapestRows(columns, step, time).work;
+  return 0.5 * columns * (columns + 1) / std::min(step, time);
 }
 
 void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_, resolves_, lost_); }
@@ -67,18 +70,23 @@ void StepChoice::accept(double step, double error, double coarser, double allowe
   resolves_ = true;
   lost_ = 0;
   const auto bounded = [&](double of) { return std::min(of, bound_); };
-  const auto work = [&](double of, int columns) { return workOf(columns) / std::min(of, time); };
+  const auto pays = [&](double of, int columns, double other, int others) {
+    return workFor(of, columns, time) < kPays * workFor(other, others, time);
+  };
   const double here = bounded(stepFor(step, error, columns_, allowed));
   const double less =
       columns_ > least_ ? bounded(stepFor(step, coarser, columns_ - 1, allowed)) : 0;
   double chosen = here;
-  if (columns_ > least_ && work(less, columns_ - 1) < kPays * work(here, columns_)) {
+  if (columns_ > least_ && pays(less, columns_ - 1, here, columns_)) {
     --columns_;
     chosen = less;
-  } else if (columns_ < most_ && here < bounded(time) &&
-             (columns_ == least_ || work(here, columns_) < kPays * work(less, columns_ - 1))) {
-    chosen = here * workOf(columns_ + 1) / workOf(columns_);
-    ++columns_;
+  } else if (columns_ < most_ && here < bounded(time)) {
+    // One more may bring what the last one has, or what it costs if that is less.
+    const double gain = less > 0 ? here / less : kMostChange;
+    if (columns_ == least_ || pays(gain * here, columns_ + 1, here, columns_)) {
+      chosen = here * std::min(gain, (columns_ + 2.0) / columns_);
+      ++columns_;
+    }
   }
   // One that was cut short tells little of longer ones: these were known before.
   const bool isTrimmed = step < wanted_ && chosen > step;

@@ -15,7 +15,8 @@ inline constexpr double kShareOfFrame = 0.01;
 
 class StepChoice {
  public:
-  // Rows of a tableau are made one after the other, or side by side, by so many steps at once.
+  // Rows of a tableau are made one after the other, or side by side (lane_rows.h). All here is told
+  // of rows of 1, 2, ... steps.
   enum class Rows : char { kInTurn, kSideBySide };
   // What is allowed of a step: always the same, or in proportion to its time.
   enum class Allowed : char { kOfStep, kOfTime };
@@ -29,6 +30,8 @@ class StepChoice {
         rows_(rows) {}
 
   int columns() const { return columns_; }
+  // 0: not known.
+  double wanted() const { return wanted_; }
   // Of what is left of `time`.
   double next(double left, double time);
   // One more column, for the step that is being made. False: there are no more.
@@ -59,7 +62,7 @@ class StepChoice {
   void archive(Archive& a);
 
  private:
-  int workOf(int columns) const;
+  double workFor(double step, int columns, double time) const;
   double stepFor(double step, double error, int columns, double allowed) const;
   int power_, least_, most_, columns_;
   Allowed allowed_;

@@ -221,17 +221,17 @@ bool SymmetricStep::project(const IslandState& state, double tolerance, const Su
   return closed;
 }
 
-bool SymmetricStep::stepSideBySide(int columns, double time, const Surroundings& world,
+bool SymmetricStep::stepSideBySide(int first, int columns, double time, const Surroundings& world,
                                    const TrialPoses& trial) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     shift_[i] = pullOn(i, world);
     twist_[i] = world.loads[bodies_[i]].torque;
   }
   tree_->push(shift_, twist_);
-  tree_->run(columns, present_.state, time);
+  tree_->run(first, columns, present_.state, time);
   put(present_.state, trial.start);
-  for (int n = 1; n <= columns && !limits_.empty(); ++n) {
-    tree_->end(n, to_);
+  for (int row = 0; row < columns && !limits_.empty(); ++row) {
+    tree_->end(row, to_);
     put(to_, trial.end);
     if (meetsLimit(world, trial)) return false;
   }

@@ -87,10 +87,11 @@ class SymmetricStep {
   // From where it is by h, joints closed to `tolerance` [m, rad]. False: they do not close, or a
   // limit is met.
   bool step(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
-  // A tree of ball sockets: of the state of the last `set`, motions of 1, 2, ... `columns` steps,
-  // which tree().end() tells. False: a limit is met.
+  // A tree of ball sockets: of the state of the last `set`, motions of `first`, first + 1, ...
+  // steps, so many as columns, which tree().end() tells. False: a limit is met.
   bool isTree() const { return tree_.has_value(); }
-  bool stepSideBySide(int columns, double time, const Surroundings& world, const TrialPoses& trial);
+  bool stepSideBySide(int first, int columns, double time, const Surroundings& world,
+                      const TrialPoses& trial);
   const JointTree& tree() const { return *tree_; }
   // To the turns and spins of a state near the ends of those.
   void goOnFrom(const IslandState& state, const TrialPoses& trial);
