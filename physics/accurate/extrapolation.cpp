@@ -84,12 +84,11 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
   lasting_ = damps ? 0 : time * std::max(step_.size() / way, 1.0);
   for (double left = time; left > 0;) {
     const double from = world.time + (time - left), least = kLeastPart * time;
-    const double wanted = choice_.next(left, time);
     const int columns = choice_.columns();
-    if (wanted < least) return choice_.forget(), false;
     const bool isTree = step_.isTree();
-    const RowChoice rows = isTree ? cheapestRows(columns, choice_.wanted(), left, inAll / time)
-                                  : RowChoice{.step = wanted};
+    const RowChoice rows = isTree ? cheapestRows(columns, choice_.wanted(time), left, inAll / time)
+                                  : RowChoice{.step = choice_.next(left, time)};
+    if (rows.step < least) return choice_.forget(), false;
     // A step ends where a table has a point: no order counts across one.
     const double whole = nextPart(world.kinds, from, rows.step, least);
     // Where joints close no further than that, speeds of a step are off by it over the step.

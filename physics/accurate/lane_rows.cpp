@@ -36,15 +36,17 @@ double noiseOf(int first, int columns) {
   return kRounding * sum;
 }
 
-// It errs by (H^k / n_1 n_2 ... n_k)^2, but for a factor.
+// What is told of T_kk, its difference from T_k,k-1, is (H^(k-1) / n_2 n_3 ... n_k)^2, but for a
+// factor.
 Costs findCosts() {
   Costs costs;
   for (int columns = 1; columns <= Tableau::kMostRows; ++columns) {
     double product = 1;
     for (int m = 1; m <= kMostFirst; ++m) {
       const double work = LaneRows(m, columns).steps + kEnd * columns;
-      costs[columns - 1][m - 1] = {rootOf(product, columns), work, noiseOf(m, columns)};
-      product *= static_cast<double>(m + columns) / m;
+      const double reach = columns > 1 ? rootOf(product, columns - 1) : m;
+      costs[columns - 1][m - 1] = {reach, work, noiseOf(m, columns)};
+      product *= static_cast<double>(m + columns) / (m + 1);
     }
   }
   return costs;

@@ -42,10 +42,9 @@ double StepChoice::workFor(double step, int columns, double time) const {
 
 void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_, resolves_, lost_); }
 
-double StepChoice::next(double left, double time) {
-  if (!(wanted_ > 0)) wanted_ = time;
-  if (wanted_ >= left) return left;
-  return std::min(wanted_, 0.5 * left);
+double StepChoice::next(double left, double time) const {
+  const double step = wanted(time);
+  return step < left ? std::min(step, 0.5 * left) : left;
 }
 
 double StepChoice::stepFor(double step, double error, int columns, double allowed) const {
@@ -89,9 +88,9 @@ void StepChoice::accept(double step, double error, double coarser, double allowe
     }
   }
   // One that was cut short tells little of longer ones: these were known before.
-  const bool isTrimmed = step < wanted_ && chosen > step;
-  const double known = isTrimmed ? wanted_ * std::min(chosen / here, 1.0) : 0;
-  const double now = std::max(step, wanted_), next = bounded(std::max(chosen, known));
+  const double before = wanted(time);
+  const double known = step < before && chosen > step ? before * std::min(chosen / here, 1.0) : 0;
+  const double now = std::max(step, before), next = bounded(std::max(chosen, known));
   wanted_ = rejected_ ? std::min(next, now) : next;  // what was too long is not tried again at once
   rejected_ = false;
 }

@@ -30,10 +30,10 @@ class StepChoice {
         rows_(rows) {}
 
   int columns() const { return columns_; }
-  // 0: not known.
-  double wanted() const { return wanted_; }
-  // Of what is left of `time`.
-  double next(double left, double time);
+  // s: all of `time`, where nothing is known.
+  double wanted(double time) const { return wanted_ > 0 ? wanted_ : time; }
+  // That, of what is left of it.
+  double next(double left, double time) const;
   // One more column, for the step that is being made. False: there are no more.
   bool extend() { return columns_ < most_ && ++columns_ > 0; }
   // A step that errs by too much; an infinite error is one that failed.
