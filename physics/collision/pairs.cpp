@@ -212,6 +212,10 @@ void Pairs::mergeFresh() {
     return at != watches_.end() && at->items() == pair;
   });
   std::ptrdiff_t old = std::ssize(watches_);
+  if (const std::size_t most = findings_.size() + fresh_.size(); most > findings_.capacity()) {
+    findings_.reserve(
+        std::max(most, 2 * findings_.capacity()));  // they are large: once, not thrice
+  }
   watches_.resize(watches_.size() + fresh_.size());
   auto to = watches_.end();
   for (std::size_t k = fresh_.size(); k-- > 0;) {

@@ -138,7 +138,7 @@ void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
   trial.left = w.settings.dt;
   trial.extent = sizeOf(w.bodies, batch);
   trial.flights = 0;
-  trial.hits = trial.isLaidOut = trial.stirs = false;
+  trial.hits = trial.isLaidOut = trial.needsMore = false;
   trial.told = {};
   trial.levers.clear();
   for (const BodyId i : batch.bodies) {
@@ -161,16 +161,54 @@ double SmallSteps::Impl::wayOf(const Model& w, const Trial& trial) const {
   return most / trial.extent;
 }
 
-// What moves by less than a step may err by errs by less, whatever its substeps: one row does, and
-// its way is its error. Its contacts are to stand where they touch, or the row's substeps tell how
-// deep they are.
-bool SmallSteps::Impl::mayRest(const Model& w, const Trial& trial) const {
-  if (trial.stirs || trial.hits || !(wayOf(w, trial) <= allowedError(w))) return false;
+// What one row of a step errs by, of its size: what one of the last step's did, but for what bodies
+// accelerate by otherwise. Infinite: not known.
+double SmallSteps::Impl::errorOfOneRow(const Model& w, const Trial& trial) const {
+  const Batch& batch = batches[trial.batch];
+  const double dt = w.settings.dt, scale = 1 / trial.whole;
+  if (trial.changes > 0) return std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    const BodyId i = batch.bodies[k];
+    const Velocity &now = w.bodies.velocity[i], &start = batch.kept[k].velocity;
+    const Vec3 along = scale * (now.v - start.v) - accelerated[i].v;
+    const Vec3 about = scale * (now.w - start.w) - accelerated[i].w;
+    most = std::max(most, along.norm() + trial.levers[k] * about.norm());
+  }
+  return oneRowErrs[batch.bodies.front()] + dt * dt * most / trial.extent;
+}
+
+// What moves by less than a step may err by errs by less, whatever its substeps; and where one row
+// errs by less than contacts know, further ones tell nothing. Contacts are to stand where they
+// touch, or the row's substeps tell how deep they are.
+bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
+  if (trial.needsMore || trial.hits) return false;
+  const Batch& batch = batches[trial.batch];
+  const bool isExact = oneRowErrs[batch.bodies.front()] <= kKnown;
+  if (!isExact && !(wayOf(w, trial) <= allowedError(w))) return false;
   const auto stands = [&](int contact) {
     return !contacts[contact].isLoaded() || contacts[contact].isHeld();
   };
-  const Batch& batch = batches[trial.batch];
   return std::all_of(batch.contacts.begin(), batch.contacts.end(), stands);
+}
+
+// What the next step's one row is judged by.
+void SmallSteps::Impl::noteMotion(const Model& w, const Trial& trial) {
+  const Batch& batch = batches[trial.batch];
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    const BodyId i = batch.bodies[k];
+    const Velocity &now = w.bodies.velocity[i], &start = batch.kept[k].velocity;
+    accelerated[i] = {(now.v - start.v) / trial.whole, (now.w - start.w) / trial.whole};
+  }
+  double& errs = oneRowErrs[batch.bodies.front()];
+  if (trial.isOneRow) {
+    errs = trial.oneRowErrs;
+  } else if (trial.hits || trial.changes > 0 || trial.isLost) {
+    errs = std::numeric_limits<double>::infinity();
+  } else {  // it goes with h
+    const double dt = w.settings.dt, times = dt / trial.whole;
+    errs = times * times * trial.steps * trial.tableau.gain(trial.extent, dt, trial.levers);
+  }
 }
 
 // What it tries next; as long as nothing touches it flies before that. False: its step is made.
@@ -187,11 +225,12 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   }
   if (!(trial.left > 0)) return false;
   keepStart(w, batch);
-  trial.rests = mayRest(w, trial);
-  const double next = trial.hits ? 0 : trial.rests ? trial.left : choice.next(trial.left, dt);
+  trial.isOneRow = mayTakeOneRow(w, trial);
+  const double next = trial.hits ? 0 : trial.isOneRow ? trial.left : choice.next(trial.left, dt);
   const double wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
   trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
-  trial.columns = trial.rests || choice.lost() > 0 ? 1 : choice.columns();
+  trial.isLost = !trial.isOneRow && choice.lost() > 0;
+  trial.columns = trial.isOneRow || trial.isLost ? 1 : choice.columns();
   trial.most =
       std::max(trial.columns, static_cast<int>(std::ceil(batch.substeps * trial.whole / dt)));
   return true;
@@ -201,7 +240,8 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
 bool SmallSteps::Impl::isAlike(const Model& w, const Trial& a, const Trial& b) const {
   const Batch &of = batches[a.batch], &other = batches[b.batch];
   const bool isFree = !of.isMixed() && !other.isMixed() && !(w.bodies.mostRestitution > 0);
-  return isFree && a.most == b.most && a.columns == b.columns && of.sweeps == other.sweeps;
+  return isFree && a.most == b.most && a.columns == b.columns && a.isLost == b.isLost &&
+         of.sweeps == other.sweeps;
 }
 
 // The lanes of a group: those of its only island, or of all of them.
@@ -270,6 +310,7 @@ void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepRep
   for (int first = 1, last = columns; !group.empty(); first = ++last) {
     Batch& batch = lanesFor(w, group);
     batch.closes = columns > 1 && !batch.isMixed();  // so that rows are told from each other
+    batch.isLost = group[0]->isLost;
     closings.resize(group.size());
     for (int row = first; row <= last; ++row) {
       addRow(w, group, batch, (most * row + columns - 1) / columns, report);
@@ -286,7 +327,7 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   StepChoice& choice = choices[batch.bodies.front()];
   const double dt = w.settings.dt, allowed = allowedError(w);
   const bool isLost = trial.changes > kMostPlaces;
-  const bool isKnown = trial.columns > 1 || trial.rests;
+  const bool isKnown = trial.columns > 1 || trial.isOneRow;
   const bool isSmall = isKnown && trial.error <= allowed;
   const bool isFew = trial.places <= kMostPlaces && !isLost;
   if (!isSmall && trial.whole > kLeastPart * dt && isFew) {
@@ -301,13 +342,14 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   }
   if (!isSmall) {
     choice.giveUp(isLost ? trial.error : 0);
-  } else if (trial.rests) {
+  } else if (trial.isOneRow) {
     choice.rest();
   } else if (!trial.hits) {  // a jump is no smoother in shorter substeps
     takeBest(w, trial);
     choice.accept(trial.whole, trial.error, trial.coarser, allowed, dt);
   }
-  if (isSmall) trial.told.order = std::max(trial.told.order, trial.rests ? 1 : choice.columns());
+  noteMotion(w, trial);
+  if (isSmall) trial.told.order = std::max(trial.told.order, trial.isOneRow ? 1 : choice.columns());
   ++trial.told.accepted;
   trial.told.least = trial.told.least > 0 ? std::min(trial.told.least, trial.whole) : trial.whole;
   trial.told.estimate += trial.error;
@@ -319,11 +361,14 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
 // What its rows err by. True: it goes on with one more column.
 bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
   StepChoice& choice = choices[batches[trial.batch].bodies.front()];
-  if (trial.rests) {
-    trial.error = wayOf(w, trial);
-    trial.rests = trial.error <= allowedError(w);
-    trial.stirs = !trial.rests;
-  } else if (trial.columns == 1) {  // no step resolved the last one, and the default's is all of it
+  if (trial.isOneRow) {
+    const double way = wayOf(w, trial);
+    trial.oneRowErrs = errorOfOneRow(w, trial);
+    const bool isExact = trial.oneRowErrs <= kKnown;
+    trial.error = isExact ? std::min(trial.oneRowErrs, way) : way;
+    trial.isOneRow = trial.error <= allowedError(w);
+    trial.needsMore = !trial.isOneRow;
+  } else if (trial.isLost) {
     trial.error = choice.lost();
   } else if (trial.changes > 0) {
     trial.error =

@@ -69,10 +69,11 @@ bool SmallSteps::Impl::turnsNormal(const ContactBlock& block, int l,
 }
 
 // True: some of the batch have turned far, and the rows of those are to be prepared anew. By an
-// accuracy that is as far as a step may err: what the rows of a tableau have in common it does not
-// see. Then normals between centres turn as well, and what is round has no other.
+// accuracy that is as far as a step may err, if it resolves the motion: what the rows of a tableau
+// have in common it does not see. Then normals between centres turn as well, and what is round has
+// no other.
 bool SmallSteps::Impl::findTurned(const Model& w, Batch& batch) const {
-  const bool isAsked = stepsAccurately(w, batch);
+  const bool isAsked = stepsAccurately(w, batch) && !batch.isLost;
   const double far = isAsked ? std::min(kFar, allowedError(w)) : kFar;
   bool some = false;
   batch.turned.assign(batch.motions.size(), 0);

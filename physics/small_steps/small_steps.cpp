@@ -2,6 +2,7 @@
 #include "physics/small_steps/small_steps.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "physics/model/factors.h"
 #include "physics/model/finite.h"
@@ -68,6 +69,8 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   meanSpins.resize(bodies, Vec3::Zero());
   choices.resize(bodies, StepChoice(1, 2, kMostTouchingColumns, StepChoice::Allowed::kOfStep,
                                     StepChoice::Rows::kInTurn));
+  oneRowErrs.resize(bodies, std::numeric_limits<double>::infinity());
+  accelerated.resize(bodies);
   load.resize(bodies);
   sag.resize(bodies);
   drawn.resize(bodies);

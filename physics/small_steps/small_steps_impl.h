@@ -107,6 +107,7 @@ struct SmallSteps::Batch {
   Joined joined = Joined::kNot;  // in every island of it
   bool isDeep = false;           // it has overlaps that the push speed limits
   bool isAgain = false;          // another attempt of what too few substeps took apart
+  bool isLost = false;           // by an accuracy: no step resolves what its islands do
   bool closes = false;           // sweeps go on until contacts are closed, of each of its parts
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
@@ -147,8 +148,10 @@ struct SmallSteps::Trial {
   double extent = 0, error = 0, coarser = 0;  // coarser: by a column less
   int places = 0, changes = 0;                // bodies that err by too much; contacts that changed
   int flights = 0;
-  bool rests = false, stirs = false;  // it is tried as what rests; it did not
-  bool hits = false;  // an impact comes next: by itself, and what flies on then flies exactly
+  bool isOneRow = false, needsMore = false;  // it is tried by one row; that did not do
+  double oneRowErrs = 0;                     // by what is known of it; infinite: nothing is
+  bool isLost = false;  // no step resolved the last one, and the default's is all of this
+  bool hits = false;    // an impact comes next: by itself, and what flies on then flies exactly
   AccuracyReport told;
 };
 
@@ -188,6 +191,8 @@ struct SmallSteps::Impl {
   std::vector<Pose> trialNow, trialStart, trialEnd;
   static constexpr int kMostTouchingColumns = 4;  // of 2 at least: one has no estimate
   std::vector<StepChoice> choices;                // by first body of an island that touches
+  std::vector<double> oneRowErrs;     // the same: of its size, over a step; infinite: not known
+  std::vector<Velocity> accelerated;  // by body of one: in its last step [m/s^2, rad/s^2]
   std::vector<Trial> trials;
   Batch together;  // of some of these
   enum class Ended : char { kFurther, kRejected, kAccepted };
@@ -257,7 +262,9 @@ struct SmallSteps::Impl {
   void addRow(Model& w, std::span<Trial* const> group, Batch& batch, int steps, StepReport& report);
   void addRow(const Model& w, Trial& trial);
   double wayOf(const Model& w, const Trial& trial) const;
-  bool mayRest(const Model& w, const Trial& trial) const;
+  bool mayTakeOneRow(const Model& w, const Trial& trial) const;
+  double errorOfOneRow(const Model& w, const Trial& trial) const;
+  void noteMotion(const Model& w, const Trial& trial);
   bool isDone(Model& w, Trial& trial);
   bool goesOn(const Model& w, Trial& trial);
   void conclude(Model& w, std::vector<Trial*>& group, Batch& batch);

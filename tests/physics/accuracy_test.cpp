@@ -351,6 +351,33 @@ TEST(Accuracy, FindsWhereSlidingEnds) {
   EXPECT_LT(slide(1e-5), 1e-5);
 }
 
+// A box on ice: one row of one substep is as right as more, and is all that is made, until it meets
+// one that rests. That both go on at half its speed no row tells that knows of the first alone.
+TEST(Accuracy, OneRowIsEnoughWhereItWasBefore) {
+  constexpr double speed = 4;
+  World world = onFloor(1e-3);
+  BodyDef box;
+  box.shape = Box{Vec3(0.4, 0.2, 0.4)};
+  box.pose.x = Vec3(0, 0.1, 0);
+  box.velocity.v = Vec3(speed, 0, 0);
+  const BodyId slides = world.add(box);
+  box.pose.x = Vec3(1.4, 0.1, 0);  // it is there after 0.25 s
+  box.velocity.v = Vec3::Zero();
+  const BodyId rests = world.add(box);
+  after(world, 0.1);
+  AccuracyReport before, later;
+  after(world, 0.1, &before);
+  EXPECT_EQ(before.order, 1);
+  EXPECT_EQ(before.rejected, 0);
+  after(world, 0.2, &later);
+  EXPECT_GT(later.order, 1);
+  const Bodies& b = world.bodies();
+  EXPECT_NEAR(b.velocity[slides].v.x(), speed / 2, 1e-3 * speed);
+  EXPECT_NEAR(b.velocity[rests].v.x(), speed / 2, 1e-3 * speed);
+  EXPECT_NEAR(b.pose[rests].x.x(), 1.4 + speed / 2 * (0.4 - 0.25), 1e-2);
+  EXPECT_NEAR(b.pose[rests].x.x() - b.pose[slides].x.x(), 0.4, 1e-3);
+}
+
 // Friction and a constant force are as in a textbook. Rounded to the single precision of the lanes,
 // 10 m/s would lose some 1e-4 m/s of its own in half a second.
 TEST(Accuracy, KeepsTheMomentumOfWhatSlidesFast) {
