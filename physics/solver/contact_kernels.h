@@ -74,16 +74,20 @@ inline Lanes3 sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const 
                             Moved& a, Moved& b) {
   const Lanes nuS = load(m.staticFriction), nuD = load(m.dynamicFriction);
   ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
+  const Lanes last1 = load(t1.lambda), last2 = load(t2.lambda), twisted = load(m.twist);
+  if (positive(nuS + nuD + last1 * last1 + last2 * last2 + twisted * twisted) == 0) {
+    return {all(0), all(0), all(0)};  // nothing grips, or did
+  }
   const Lanes3 d1 = load(t1.d), d2 = load(t2.d);
   const Lanes rate = dot(load(m.twistA), a.turn) - dot(load(m.twistB), b.turn);
   const Lanes rate1 = rateOf(t1, dot(d1, between), a, b);
   const Lanes rate2 = rateOf(t2, dot(d2, between), a, b);
-  const Lanes twisted = load(m.twist), wanted = twisted - load(m.twistInverse) * rate;
+  const Lanes wanted = twisted - load(m.twistInverse) * rate;
   const Lanes kept = onSegment(wanted, nuS * turning, nuD * turning);
   const Lanes more = kept - twisted;
   store(m.twist, kept);
   const Lanes v1 = rate1 + load(t1.twisted) * more, v2 = rate2 + load(t2.twisted) * more;
-  const Lanes last1 = load(t1.lambda), last2 = load(t2.lambda), across = load(m.inverse12);
+  const Lanes across = load(m.inverse12);
   Lanes total1 = last1 - (load(m.inverse11) * v1 + across * v2);
   Lanes total2 = last2 - (across * v1 + load(m.inverse22) * v2);
   takeDisc(m, nuS * normal, nuD * normal, total1, total2);
