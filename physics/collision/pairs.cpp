@@ -129,11 +129,18 @@ bool Pairs::touches(int p, int q) const {
   return overlap(fat_[p], fat_[q]);
 }
 
+// For so many findings more: they are large, and come all at once. Nothing is allocated when pairs
+// part.
+void Pairs::makeRoom(std::size_t more) {
+  const std::size_t all = findings_.size() + more - std::min(more, free_.size());
+  if (all > findings_.capacity()) findings_.reserve(std::max(all, 2 * findings_.capacity()));
+  free_.reserve(findings_.capacity());
+}
+
 Watch Pairs::newWatch(int p, int q) {
   if (free_.empty()) {
     free_.push_back(static_cast<int>(findings_.size()));
     findings_.emplace_back();
-    free_.reserve(findings_.capacity());  // then it allocates nothing when pairs part
   }
   Watch watch;
   watch.a = p;
@@ -212,10 +219,7 @@ void Pairs::mergeFresh() {
     return at != watches_.end() && at->items() == pair;
   });
   std::ptrdiff_t old = std::ssize(watches_);
-  if (const std::size_t most = findings_.size() + fresh_.size(); most > findings_.capacity()) {
-    findings_.reserve(
-        std::max(most, 2 * findings_.capacity()));  // they are large: once, not thrice
-  }
+  makeRoom(fresh_.size());
   watches_.resize(watches_.size() + fresh_.size());
   auto to = watches_.end();
   for (std::size_t k = fresh_.size(); k-- > 0;) {

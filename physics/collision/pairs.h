@@ -61,6 +61,7 @@ class Pairs {
   void offer(int p, int q, std::vector<std::pair<int, int>>& fresh) const;
   void findNew(Workers& workers);
   void mergeFresh();
+  void makeRoom(std::size_t more);
   Watch newWatch(int p, int q);
   void name(const Watch& watch, Manifold& manifold) const;
   void archiveFinding(Archive& a, const Watch& watch);
