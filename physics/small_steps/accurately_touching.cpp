@@ -161,19 +161,24 @@ double SmallSteps::Impl::wayOf(const Model& w, const Trial& trial) const {
   return most / trial.extent;
 }
 
+// The mean one of the k-th body since it was kept [m/s^2, rad/s^2].
+Velocity SmallSteps::Impl::accelerationOf(const Bodies& b, const Batch& batch, std::size_t k,
+                                          double time) {
+  const Velocity &now = b.velocity[batch.bodies[k]], &start = batch.kept[k].velocity;
+  return {(now.v - start.v) / time, (now.w - start.w) / time};
+}
+
 // What one row of a step errs by, of its size: what one of the last step's did, but for what bodies
 // accelerate by otherwise. Infinite: not known.
 double SmallSteps::Impl::errorOfOneRow(const Model& w, const Trial& trial) const {
   const Batch& batch = batches[trial.batch];
-  const double dt = w.settings.dt, scale = 1 / trial.whole;
+  const double dt = w.settings.dt;
   if (trial.changes > 0) return std::numeric_limits<double>::infinity();
   double most = 0;
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
-    const BodyId i = batch.bodies[k];
-    const Velocity &now = w.bodies.velocity[i], &start = batch.kept[k].velocity;
-    const Vec3 along = scale * (now.v - start.v) - accelerated[i].v;
-    const Vec3 about = scale * (now.w - start.w) - accelerated[i].w;
-    most = std::max(most, along.norm() + trial.levers[k] * about.norm());
+    const Velocity now = accelerationOf(w.bodies, batch, k, trial.whole);
+    const Velocity& before = accelerated[batch.bodies[k]];
+    most = std::max(most, (now.v - before.v).norm() + trial.levers[k] * (now.w - before.w).norm());
   }
   return oneRowErrs[batch.bodies.front()] + dt * dt * most / trial.extent;
 }
@@ -196,14 +201,12 @@ bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
 void SmallSteps::Impl::noteMotion(const Model& w, const Trial& trial) {
   const Batch& batch = batches[trial.batch];
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
-    const BodyId i = batch.bodies[k];
-    const Velocity &now = w.bodies.velocity[i], &start = batch.kept[k].velocity;
-    accelerated[i] = {(now.v - start.v) / trial.whole, (now.w - start.w) / trial.whole};
+    accelerated[batch.bodies[k]] = accelerationOf(w.bodies, batch, k, trial.whole);
   }
   double& errs = oneRowErrs[batch.bodies.front()];
   if (trial.isOneRow) {
     errs = trial.oneRowErrs;
-  } else if (trial.hits || trial.changes > 0 || trial.isLost) {
+  } else if (trial.hits || trial.changes > 0 || trial.columns == 1) {
     errs = std::numeric_limits<double>::infinity();
   } else {  // it goes with h
     const double dt = w.settings.dt, times = dt / trial.whole;

@@ -263,6 +263,7 @@ struct SmallSteps::Impl {
   void addRow(const Model& w, Trial& trial);
   double wayOf(const Model& w, const Trial& trial) const;
   bool mayTakeOneRow(const Model& w, const Trial& trial) const;
+  static Velocity accelerationOf(const Bodies& b, const Batch& batch, std::size_t k, double time);
   double errorOfOneRow(const Model& w, const Trial& trial) const;
   void noteMotion(const Model& w, const Trial& trial);
   bool isDone(Model& w, Trial& trial);
