@@ -141,7 +141,7 @@ Line lineOf(const Solid& s, int index) {
     const Edge& edge = s.edges[index];
     return {s.hull->vertices[edge.from], s.hull->vertices[edge.to]};
   }
-  return {Vec3(0, -s.halfLength, 0), Vec3(0, s.halfLength, 0)};
+  return {Vec3(0, -s.halfLength, 0), Vec3(0, s.halfLength, 0), s.rounding};
 }
 
 Axes findAxes(const Solid& a, const Solid& b, const Relative& pose, double enough) {

@@ -9,10 +9,6 @@ namespace {
 
 using Corner = FacePoints::Corner;
 
-// Of boxHull(): the corners of its faces, counter-clockwise from outside.
-constexpr int kCorners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-
 // A face of a box: its normal is `sign` times axis k, and u and v run along the next two axes.
 struct Frame {
   int k, u, v;
@@ -45,7 +41,7 @@ void placeIncident(const Solid& s, const Relative& toFace, const Vec3& d, const 
   }
   int axis = 0;
   d.cwiseAbs().maxCoeff(&axis);
-  for (const int id : kCorners[2 * axis + (d[axis] > 0 ? 1 : 0)]) add(cornerOf(s, id), id);
+  for (const int id : kBoxFaces[2 * axis + (d[axis] > 0 ? 1 : 0)]) add(cornerOf(s, id), id);
 }
 
 Corner cut(const Corner& from, const Corner& to, double fromOut, double toOut, int side) {
@@ -87,7 +83,7 @@ void cutSegment(FacePoints& points, const std::array<double, FacePoints::kRoom>&
 
 // `side` k of a face runs from its corner k to the next.
 void cutSide(FacePoints& points, const Solid& box, const Frame& frame, int side, double tolerance) {
-  const auto& corners = kCorners[2 * frame.k + (frame.sign > 0 ? 1 : 0)];
+  const auto& corners = kBoxFaces[2 * frame.k + (frame.sign > 0 ? 1 : 0)];
   const int from = corners[side], to = corners[(side + 1) % 4];
   const bool alongU = ((from ^ to) >> frame.u & 1) != 0;
   const int axis = alongU ? frame.v : frame.u;

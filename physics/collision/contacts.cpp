@@ -35,7 +35,8 @@ Choice spread(std::span<const Spot> spots, const Limits& limits) {
   return chosen;
 }
 
-// The deepest spot takes the place of the chosen one nearest to it, where it is clearly deeper.
+// The deepest spot, where it is clearly deeper than those chosen: of four it takes the place of the
+// one nearest to it.
 void insistOnDeepest(std::span<const Spot> spots, double clearly, Choice& chosen) {
   int deepest = 0;
   for (int i = 1; i < static_cast<int>(spots.size()); ++i) {
@@ -51,7 +52,9 @@ void insistOnDeepest(std::span<const Spot> spots, double clearly, Choice& chosen
     if (du * du + dv * dv < best) best = du * du + dv * dv, nearest = k;
     lowest = std::min(lowest, spot.gap);
   }
-  if (deep.gap < lowest - clearly) chosen.index[nearest] = deepest;
+  if (!(deep.gap < lowest - clearly)) return;
+  if (chosen.count < Manifold::kMaxPoints) return chosen.take(deepest);
+  chosen.index[nearest] = deepest;
 }
 
 }  // namespace
@@ -121,26 +124,32 @@ void touchFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owne
 
 void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flatness,
                 Contacts& contacts) {
+  const LinePoints closest = closestPoints(a, b);
   contacts.count = 0;
+  contacts.add(closest.onA, closest.onB, feature);
   const Vec3 along = b.to - b.from, other = a.to - a.from;
   const double square = along.squaredNorm();
   const double first = along.dot(a.from - b.from), rise = along.dot(other);
-  if (square > 0 && rise != 0) {  // the stretch of b beside a, in parts of b
-    const double low = std::clamp(std::min(first, first + rise) / square, 0.0, 1.0);
-    const double high = std::clamp(std::max(first, first + rise) / square, 0.0, 1.0);
-    if ((high - low) * std::sqrt(square) > 4 * flatness) {
-      for (const double part : {low, high}) {
-        const Vec3 onA = a.from + (part * square - first) / rise * other,
-                   onB = b.from + part * along;
-        if (offset(contacts.n, onA - onB) > flatness) continue;
-        contacts.add(onA, onB, feature + (part == low ? 0u : 1u));
-      }
-    }
+  if (!(square > 0) || rise == 0) return;
+  // The stretch of b beside a, in parts of b.
+  const double low = std::clamp(std::min(first, first + rise) / square, 0.0, 1.0);
+  const double high = std::clamp(std::max(first, first + rise) / square, 0.0, 1.0);
+  if (!((high - low) * std::sqrt(square) > 4 * flatness)) return;
+  const double radii = a.rounding + b.rounding, shareB = radii > 0 ? b.rounding / radii : 0;
+  int flat = 0;
+  for (const double part : {low, high}) {
+    const Vec3 onA = a.from + (part * square - first) / rise * other, onB = b.from + part * along;
+    const Vec3 apart = onA - onB, beside = apart - contacts.n.dot(apart) * contacts.n;
+    const bool isFlat = beside.norm() <= flatness;
+    // Where round sides face each other along n, between the two lines: below their tops.
+    const double below = radii - std::sqrt(radii * radii - beside.squaredNorm());
+    const bool meet = radii > 0 ? below >= 0 : isFlat;
+    if (!meet) continue;
+    const Vec3 way = radii > 0 ? Vec3(beside - below * contacts.n) : Vec3::Zero();
+    contacts.add(onA - (1 - shareB) * way, onB + shareB * way, feature + (part == low ? 1 : 2));
+    flat += isFlat;
   }
-  if (contacts.count == 2) return;
-  contacts.count = 0;
-  const LinePoints closest = closestPoints(a, b);
-  contacts.add(closest.onA, closest.onB, feature);
+  if (flat == 2) contacts.points[0] = contacts.points[--contacts.count];
 }
 
 void finish(const Contacts& contacts, const Relative& pose, const Limits& limits, Manifold& out) {

@@ -31,9 +31,10 @@ struct Contacts {
   double smallestGap() const;  // +infinity when there is none
 };
 
-// Two lines of the cores, each with the radius of its surface.
+// A line of a core: an edge, or the axis of what is round.
 struct Line {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+  double rounding = 0;  // of the solid
 };
 struct LinePoints {
   Vec3 onA = Vec3::Zero(), onB = Vec3::Zero();
@@ -48,8 +49,9 @@ double offset(const Vec3& n, const Vec3& apart);
 void touchFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owner, int index,
                 Contacts& contacts);
 
-// Two segments that are nearly parallel touch in two points, no more than `flatness` beside each
-// other; others in the closest two. n and the radii are set.
+// Where two segments are closest and, of what is round, where they part: lines that turn a little
+// meet there next. Of segments no more than `flatness` beside each other where they part, only that.
+// n and the radii are set.
 void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flatness,
                 Contacts& contacts);
 

@@ -19,15 +19,44 @@ constexpr double kRimDeeper = 1e-4;  // a rim has no corners to keep to
 // Of the way that corners turn by until the next look: half of it on the average, at half of their
 // reach. What faces is as near as what is nearest now if it is further by no more.
 constexpr double kShareOfTurn = 0.25;
+constexpr double kFacing = 0.95;  // cosine: nothing resolved turns by 0.3 rad until the next look
+constexpr double kSamePlace =
+    4 * kSideTolerance;  // where lines touch and where a face is cut by one
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 Line placed(const Line& line, const Relative& pose) {
-  return {pose.R * line.from + pose.t, pose.R * line.to + pose.t};
+  return {pose.R * line.from + pose.t, pose.R * line.to + pose.t, line.rounding};
+}
+
+// Beside lines that touch, the faces along them: bodies that turn a little until the next look meet
+// there. What a turns towards the face of b that looks along n the most, with its gaps along n.
+void addFacing(const Solid& a, const Solid& b, const Relative& pose, Contacts& contacts) {
+  if (!b.isPolyhedron()) return;
+  const Vec3& n = contacts.n;
+  const int index = nearestFace(b, n), lines = contacts.count;
+  const Facet face = facet(b, index);
+  const double cosine = face.normal.dot(n), size = smallerSize(a, b);
+  if (!(cosine >= kFacing)) return;
+  Patch flat, other;
+  facetPatch(b, index, flat);
+  facing(a, -(pose.R.transpose() * n), other);
+  transform(other, pose);
+  clip(other, flat, n, -kSideTolerance * size);
+  for (int i = 0; i < other.count && contacts.count < Patch::kRoom; ++i) {
+    const Vec3& p = other.corners[i].p;
+    bool isKnown = false;
+    for (int k = 0; k < lines; ++k) {
+      isKnown = isKnown || offset(n, p - contacts.points[k].onA) <= kSamePlace * size;
+    }
+    if (isKnown) continue;
+    const double height = (face.normal.dot(p) - face.offset) / cosine;
+    contacts.add(p, p - height * n, facetFeature(Owner::b, index, other.corners[i].id));
+  }
 }
 
 // Points for a direction found among facets and lines.
 void touchAlong(const Solid& a, const Solid& b, const Relative& pose, const Axis& axis,
-                Contacts& contacts) {
+                double tolerance, Contacts& contacts) {
   if (axis.from == Axis::From::facetB) {
     touchFacet(a, b, pose, Owner::b, axis.indexB, contacts);
   } else if (axis.from == Axis::From::facetA) {
@@ -36,11 +65,12 @@ void touchAlong(const Solid& a, const Solid& b, const Relative& pose, const Axis
     contacts.n = axis.n;
     contacts.radiusA = a.isLine() ? a.radius : 0;
     contacts.radiusB = b.isLine() ? b.radius : 0;
-    const auto edges = static_cast<std::uint32_t>(axis.indexA * 4096 + axis.indexB) * 2;
+    const auto edges = static_cast<std::uint32_t>(axis.indexA * 4096 + axis.indexB) * 4;
     touchLines(placed(lineOf(a, axis.indexA), pose), lineOf(b, axis.indexB), kLinesTag | edges,
                flatness(a, b), contacts);
     const Vec3 apart = contacts.points[0].onA - contacts.points[0].onB;  // beyond an end of a line
     if (offset(axis.n, apart) > flatness(a, b)) contacts.count = 0;
+    if (contacts.count > 0 && contacts.points[0].gap <= tolerance) addFacing(a, b, pose, contacts);
   }
 }
 
@@ -130,7 +160,7 @@ double touchCores(const Solid& a, const Solid& b, const Relative& pose, const Ax
   const bool exact = isExact(a, b);
   for (const Axis* axis : {&preferred, &largest}) {
     if (faceTried && axis == &preferred && axis->from != Axis::From::lines) continue;
-    touchAlong(a, b, pose, *axis, contacts);
+    touchAlong(a, b, pose, *axis, tolerance, contacts);
     if (exact && largest.separation <= 0 && contacts.count > 0) return separation;
     if (!exact && largest.separation < -tolerance) continue;
     if (contacts.smallestGap() <= separation + tolerance) return separation;

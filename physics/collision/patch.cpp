@@ -100,15 +100,17 @@ void cutSegment(Patch& patch, const Out& out, std::uint32_t side) {
 }  // namespace
 
 int nearestFace(const Solid& s, const Vec3& d) {
+  constexpr double kEqual = 1e-9;  // the first of those that differ by rounding
+  int best = 0;
   if (s.kind == Kind::box) {
-    int axis = 0;
-    d.cwiseAbs().maxCoeff(&axis);
-    return 2 * axis + (d[axis] > 0 ? 1 : 0);
+    for (int axis = 1; axis < 3; ++axis) {
+      if (std::abs(d[axis]) > std::abs(d[best]) + kEqual) best = axis;
+    }
+    return 2 * best + (d[best] > 0 ? 1 : 0);
   }
   const auto& faces = s.hull->faces;
-  int best = 0;
   for (std::size_t i = 1; i < faces.size(); ++i) {
-    if (faces[i].normal.dot(d) > faces[best].normal.dot(d)) best = static_cast<int>(i);
+    if (faces[i].normal.dot(d) > faces[best].normal.dot(d) + kEqual) best = static_cast<int>(i);
   }
   return best;
 }
@@ -130,6 +132,11 @@ int facetCount(const Solid& s) {
 }
 
 Facet facet(const Solid& s, int index) {
+  if (s.kind == Kind::box) {
+    Vec3 normal = Vec3::Zero();
+    normal[index / 2] = index % 2 ? 1 : -1;
+    return {normal, s.half[index / 2]};
+  }
   if (s.kind == Kind::cylinder) return {Vec3(0, index == 1 ? 1 : -1, 0), s.halfLength};
   const Hull::Face& face = s.hull->faces[index];
   return {face.normal, face.offset};
@@ -137,10 +144,15 @@ Facet facet(const Solid& s, int index) {
 
 void facetPatch(const Solid& s, int index, Patch& patch) {
   if (s.kind == Kind::cylinder) return capPatch(s, index == 1, Vec3::Zero(), patch);
-  const std::vector<int>& ids = s.hull->faces[index].vertices;
-  const int corners = static_cast<int>(ids.size()), kept = std::min(corners, Patch::kMax);
   patch.count = 0;
   patch.radius = 0;
+  if (s.kind == Kind::box) {  // as below, out of the hull's way
+    for (const int id : kBoxFaces[index])
+      patch.add(cornerOf(s, id), static_cast<std::uint32_t>(id));
+    return;
+  }
+  const std::vector<int>& ids = s.hull->faces[index].vertices;
+  const int corners = static_cast<int>(ids.size()), kept = std::min(corners, Patch::kMax);
   for (int k = 0; k < kept; ++k) {
     const int id = ids[kept == corners ? k : static_cast<std::int64_t>(k) * corners / kept];
     patch.add(s.hull->vertices[id], static_cast<std::uint32_t>(id & 0xffff));

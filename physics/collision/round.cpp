@@ -122,7 +122,7 @@ double flatness(const Solid& a, const Solid& b) {
 double touchRound(const Solid& a, const Solid& b, const Relative& pose, double reach,
                   Contacts& contacts) {
   const Vec3 u = pose.R.col(1);
-  const Line lineA{pose.t - a.halfLength * u, pose.t + a.halfLength * u};
+  const Line lineA{pose.t - a.halfLength * u, pose.t + a.halfLength * u, a.rounding};
   const Line lineB = lineOf(b, 0);
   const LinePoints closest = closestPoints(lineA, lineB);
   const Vec3 d = closest.onA - closest.onB;

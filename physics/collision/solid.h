@@ -41,7 +41,8 @@ struct Solid {
   bool isLine() const { return kind == Kind::capsule || kind == Kind::cylinder; }
 };
 
-// Of two that may touch: what their tolerances are shares of. A point, a plane and a mesh have none.
+// Of two that may touch: what their tolerances are shares of. A point, a plane and a mesh have
+// none.
 double smallerSize(const Solid& a, const Solid& b);
 
 // Throws std::invalid_argument for sizes that make no solid.
@@ -57,6 +58,11 @@ Relative relativePose(const Pose& a, const Pose& b);
 
 // The point of the core that lies furthest along d (body frame, any length but zero).
 Vec3 support(const Solid& solid, const Vec3& d);
+
+// The corners of a box's faces, as those of boxHull(): -x, +x, -y, +y, -z, +z, each
+// counter-clockwise from outside.
+constexpr int kBoxFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                 {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
 // Bit k of a box's corner, as in boxHull(), tells its side along axis k.
 inline Vec3 cornerOf(const Solid& box, int corner) {

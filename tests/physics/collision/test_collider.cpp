@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <numbers>
 #include <numeric>
 
 #include "physics/base/workers.h"
@@ -204,7 +205,9 @@ TEST(Collider, FacesOfBoxesThatTurnMeetWithAllOfTheirCorners) {
     const std::vector<Pose> start = {{}, upper, {}};
     const std::span<const Manifold> still = collider.find(start, start, 0.02);
     ASSERT_EQ(still.size(), 1u);
-    edgesWhenStill += still[0].count == 1;
+    EXPECT_GT(still[0].count, 2) << i;
+    const Vec3 n = start[still[0].b].q * still[0].normal, seen = upper.q.conjugate() * n;
+    edgesWhenStill += std::abs(n.y()) < 1 - 1e-9 && std::abs(seen.y()) < 1 - 1e-9;
     std::vector<Pose> end = start;
     end[1].q = turned(Vec3::UnitX(), 20) * upper.q;
     const std::span<const Manifold> turning = collider.find(start, end, 0.02);
@@ -213,6 +216,48 @@ TEST(Collider, FacesOfBoxesThatTurnMeetWithAllOfTheirCorners) {
     EXPECT_GT(std::abs(turning[0].normal.y()), 0.99) << i;
   }
   EXPECT_GT(edgesWhenStill, 30);
+}
+
+// A bar over two edges of a box, lower at one of them: when it turns it meets the other, whose gap
+// along the present normal is what the face falls off by.
+TEST(Collider, ABarThatLiesOnAnEdgeKnowsTheOneItTurnsTo) {
+  const double degrees = 1, tilt = degrees * std::numbers::pi / 180, radius = 0.09, overlap = 1e-3;
+  const double height = 0.5 + (radius - overlap) / std::cos(tilt) + 0.4 * std::tan(tilt);
+  const std::vector<Pose> poses = {{}, {Vec3(0.1, height, 0), turned(Vec3::UnitZ(), 89)}, {}};
+  const std::vector<Manifold> found =
+      meet(Capsule{radius, 3}, poses[1], Box{Vec3(1, 1, 1)}, poses[2]);
+  ASSERT_EQ(found.size(), 1u);
+  ASSERT_EQ(found[0].count, 2);
+  Point near = place(found[0], 0, poses), far = place(found[0], 1, poses);
+  if (near.gap > far.gap) std::swap(near, far);
+  EXPECT_NEAR(near.n.y(), std::cos(tilt), 1e-9);  // of the edge, not of the face
+  EXPECT_NEAR(near.gap, -overlap, 1e-4);
+  EXPECT_NEAR(far.gap - near.gap, std::sin(tilt), 1e-4);
+  EXPECT_NEAR(near.onB.x(), 0.5, 1e-3);
+  EXPECT_NEAR(far.onB.x(), -0.5, 1e-2);
+}
+
+// Two bars that are nearly parallel: where they part, their sides face each other by less than they
+// do in the middle, and the points are on both.
+TEST(Collider, BarsThatNearlyLieAlongEachOtherKnowWhereTheyPart) {
+  const double radius = 0.1, half = 0.5, degrees = 8;
+  const Pose lower{}, upper{Vec3(0, 0, 2 * radius), turned(Vec3::UnitZ(), degrees)};
+  const std::vector<Manifold> found =
+      meet(Capsule{radius, 2 * half}, upper, Capsule{radius, 2 * half}, lower);
+  ASSERT_EQ(found.size(), 1u);
+  ASSERT_EQ(found[0].count, 3);
+  const std::vector<Pose> poses = {{}, upper, lower};
+  const double off = half * std::tan(degrees * std::numbers::pi / 180);
+  double most = 0, least = 1;
+  for (int k = 0; k < 3; ++k) {
+    const Point point = place(found[0], k, poses);
+    most = std::max(most, point.gap);
+    least = std::min(least, point.gap);
+    const Vec3 apart = point.onA - point.onB;
+    EXPECT_NEAR((apart - point.gap * point.n).norm(), 0, 1e-12);
+  }
+  EXPECT_NEAR(least, 0, 1e-12);
+  EXPECT_NEAR(most, 2 * radius - std::sqrt(4 * radius * radius - off * off), 1e-3);
 }
 
 }  // namespace
