@@ -60,7 +60,8 @@ void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch) {
   const Bodies& b = w.bodies;
   const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
   for (const BodyId i : batch.bodies) {
-    energy[i] = change[i] = load[i] = sag[i] = drawn[i] = carried[i] = weight[i] = 0;
+    energy[i] = change[i] = changeBefore[i] = 0;
+    load[i] = sag[i] = drawn[i] = carried[i] = weight[i] = 0;
   }
   for (const BodyId i : batch.bodies) {
     if (b.motion[i] != Motion::kDynamic) continue;
@@ -77,7 +78,8 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactB
   const KeptContact& c = contacts[block.contact[l]];
   Weighed of;
   of.root = rootOf(w, c);
-  of.change = block.change[l];
+  of.change = block.change[0][l];
+  of.changeBefore = block.change[1][l];
   const double mass = 1 / (b.inverse[c.a].m + b.inverse[c.b].m), h = lengthOf(b, c);
   of.energy = kMotion * mass * h * h * (b.velocity[c.a].v - b.velocity[c.b].v).squaredNorm();
   const Softness law = softnessOf(b, c);
@@ -113,6 +115,7 @@ void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch) {
   for (const auto& lanes : weighed) {
     for (const Weighed& of : lanes) {
       change[of.root] += of.change;
+      changeBefore[of.root] += of.changeBefore;
       energy[of.root] += of.energy;
       load[of.root] += of.load;
       sag[of.root] += of.sag;
@@ -209,11 +212,14 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
     if (load[root] > 0) {
       want(i, substepsFor(substeps[root], sagOf(root)), SubstepLaw::kSag);
     }
-    const double relative = energy[root] > 0 ? change[root] / energy[root] : 0;
     askedSweeps[i] = batch.sweeps;
-    if (relative > 1) askedSweeps[i] = std::min(most, batch.sweeps + 1);
-    if (learning) askedSweeps[i] = most;  // they go down where the motion allows it
-    if (!learning && relative < 0.1) askedSweeps[i] = std::max(1, batch.sweeps - 1);
+    if (learning) {
+      askedSweeps[i] = most;  // they go down where the motion allows it
+    } else if (change[root] > energy[root]) {
+      askedSweeps[i] = std::min(most, batch.sweeps + 1);
+    } else if (batch.sweeps > 1 && changeBefore[root] <= energy[root]) {
+      --askedSweeps[i];  // the last one was not needed
+    }
   }
 }
 

@@ -69,7 +69,7 @@ void SmallSteps::Impl::keepClosed(const Batch& batch) {
   forEachPart(batch, [&](std::size_t i, int l, int part) {
     if (!closings[part].closesNow) return;
     closedLoads[i].takeLane(batch.blocks[i], l);
-    closedChanges[i].of[l] = batch.blocks[i].change[l];
+    closedChanges[i].of[l] = batch.blocks[i].change[0][l];
   });
 }
 
@@ -84,7 +84,7 @@ void SmallSteps::Impl::takeClosed(Batch& batch) const {
   forEachPart(batch, [&](std::size_t i, int l, int part) {
     if (!isKept(part)) return;
     closedLoads[i].giveLane(batch.blocks[i], l);
-    batch.blocks[i].change[l] = closedChanges[i].of[l];
+    batch.blocks[i].change[0][l] = closedChanges[i].of[l];
   });
 }
 
@@ -97,7 +97,7 @@ void SmallSteps::Impl::closeVelocities(Model& w, Batch& batch) {
     if (closed) keepClosed(batch);
     for (Closing& of : closings) of.closesNow = false;
     isKept = isKept || closed;
-    sweepContactVelocities(w, batch, {.first = false, .last = true});
+    sweepContactVelocities(w, batch, {.left = 0});
     if (s + 1 < kMost) isDone = closeParts(w, batch);
   }
   if (isKept) takeClosed(batch);

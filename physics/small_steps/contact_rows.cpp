@@ -90,24 +90,25 @@ void SmallSteps::Impl::takeSlots(Batch& batch) {
 
 // Contacts of one colour share no body that moves. First those of two bodies that move, then those
 // with what does not, so that a sweep ends with nothing driven into a wall. A body with more
-// contacts than there are colours has the others one by one. Of a part those with most points come
-// first: a block takes as long as its largest manifold.
+// contacts than there are colours has the others one by one. Of a part those that carried come
+// first, and of these those with most points: a block takes as long as its largest manifold, and
+// where none carries it has no friction.
 void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
-  constexpr int kLanes = ContactBlock::kLanes;
+  constexpr int kLanes = ContactBlock::kLanes, kSorts = 2 * ContactBlock::kPoints;
   takeSlots(batch);
   if (batch.contacts.empty()) return;
   takeResponses(batch);
   placeOf.resize(batch.contacts.size());
   const int count = static_cast<int>(batch.contacts.size());
   const int part = std::max(count / kParts + 1, kLeastOfPart);
-  const int places = ((count - 1) / part + 1) * ContactBlock::kPoints;
-  firstOf.assign(static_cast<std::size_t>(kColourLists) * places, 0);  // and by missing points
+  const int places = ((count - 1) / part + 1) * kSorts;
+  firstOf.assign(static_cast<std::size_t>(kColourLists) * places, 0);  // and by sort
   std::array<bool, kColourLists> isUsed{};
   for (int i = 0; i < count; ++i) {
     const KeptContact& c = contacts[batch.contacts[i]];
     const int list = colourOf(w.bodies, c);
-    placeOf[i] = list * places + i / part * ContactBlock::kPoints + ContactBlock::kPoints -
-                 std::max(c.count, 1);
+    const int sort = (c.isLoaded() ? 1 : 2) * ContactBlock::kPoints - std::max(c.count, 1);
+    placeOf[i] = list * places + i / part * kSorts + sort;
     ++firstOf[placeOf[i]];
     isUsed[list] = true;
   }
@@ -175,7 +176,7 @@ void fillLoads(const KeptContact& c, double h, bool stayed, ContactBlock& block,
   block.twist[l] = static_cast<float>(scale * c.twist);
   block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
   block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
-  block.change[l] = static_cast<float>(scale * c.tangential.z());
+  block.change[0][l] = static_cast<float>(scale * c.tangential.z());
 }
 
 // From where both bodies are pushed to the surface of a: half of the gap. Of what one surface has
@@ -202,7 +203,7 @@ void emptyLane(ContactBlock& block, int l) {
   block.scale[l] = 1;
   block.push[l] = 0;
   block.rate[l] = block.staticFriction[l] = block.dynamicFriction[l] = 0;
-  block.twist[l] = block.change[l] = 0;
+  block.twist[l] = block.change[0][l] = block.change[1][l] = 0;
   for (auto& t : block.tangent) t.lambda[l] = 0;
   for (int k = 0; k < block.points; ++k) emptyPoint(block, k, l);
 }

@@ -33,7 +33,7 @@ void keepLoads(const ContactBlock& now, int l, ContactBlock& fresh) {
   }
   fresh.tangent[0].lambda[l] = last[0];
   fresh.tangent[1].lambda[l] = last[1];
-  fresh.change[l] = last[2];
+  fresh.change[0][l] = last[2];
   for (int k = 0; k < now.points; ++k) fresh.point[k].lambda[l] = now.point[k].lambda[l];
 }
 

@@ -82,6 +82,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   predicted.resize(bodies);
   opened.resize(bodies);
   change.resize(bodies);
+  changeBefore.resize(bodies);
 }
 
 // Substeps of h from where the bodies are, and from `now` on. What contacts and joints carried

@@ -239,13 +239,13 @@ struct SmallSteps::Impl {
   std::vector<double> radius, thickness;  // by body, of its shape
   std::vector<Vec3> pushed;               // by body: what hits add to its way in this step [m]
   std::vector<double> push;               // and how far that is
-  enum class Held : char { kNot, kJoined, kTouching };  // by joints or points; by contacts
-  std::vector<Held> held;                               // of an island, by its first body
-  std::vector<Joined> joined;                           // the same
-  std::vector<double> load, sag, energy, change;        // by body (island: by its first)
-  std::vector<double> drawn, carried, weight;           // the same
-  std::vector<Displacement> predicted;                  // by body: before joints and contacts
-  std::vector<LaneNumbers> works;                       // scratch, by block
+  enum class Held : char { kNot, kJoined, kTouching };          // by joints or points; by contacts
+  std::vector<Held> held;                                       // of an island, by its first body
+  std::vector<Joined> joined;                                   // the same
+  std::vector<double> load, sag, energy, change, changeBefore;  // by body (island: by its first)
+  std::vector<double> drawn, carried, weight;                   // the same
+  std::vector<Displacement> predicted;  // by body: before joints and contacts
+  std::vector<LaneNumbers> works;       // scratch, by block
 
   void learn(Model& w);
   void learnAccurate(Model& w, const std::vector<std::vector<JointRef>>& rows);
@@ -374,7 +374,7 @@ struct SmallSteps::Impl {
   void weighMotion(const Model& w, const Batch& batch);
   struct Weighed {  // a contact, of what its island is weighed by
     BodyId root = kWorldBody;
-    double change = 0, energy = 0, load = 0, sag = 0, drawn = 0, carried = 0;
+    double change = 0, changeBefore = 0, energy = 0, load = 0, sag = 0, drawn = 0, carried = 0;
   };
   std::vector<std::array<Weighed, ContactBlock::kLanes>> weighed;  // scratch, by block
   Weighed weigh(const Model& w, const ContactBlock& block, int l) const;

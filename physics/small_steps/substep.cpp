@@ -234,7 +234,7 @@ void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, int s) {
     balanceContacts(w, batch);
   } else {
     if (closes) watchVelocities(batch);
-    sweepContactVelocities(w, batch, {.first = s == 0, .last = isLast});
+    sweepContactVelocities(w, batch, {.first = s == 0, .left = batch.sweeps - 1 - s});
     if (closes) closeVelocities(w, batch);
   }
   profileScope("direct");

@@ -71,7 +71,7 @@ struct alignas(32) ContactBlock {
   float drawn[kPoints][8];  // by so much it is compressed there [m]
   float scale[8], rate[8];  // softness
   float push[8];            // overlap is taken back in a substep by no more [m]
-  float change[8];          // sum of A dlambda^2 in the last velocity sweep
+  float change[2][8];       // sum of A dlambda^2 in the last velocity sweep, and the one before
   int contact[8];           // index of the contact, -1: an empty lane
   int points = kPoints;     // no lane has more
 };
@@ -95,7 +95,8 @@ struct FrictionAt {
 
 struct VelocitySweep {
   ContactRows rows = ContactRows::kAll;
-  bool first = false, last = false;  // of a substep: gaps are measured, the change is summed up
+  bool first = false;  // of a substep: gaps are measured
+  int left = 2;        // that follow in it: of the last two the change is summed up
 };
 
 struct ContactKernels {

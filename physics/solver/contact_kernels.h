@@ -75,7 +75,8 @@ inline Lanes3 sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const 
   const Lanes nuS = load(m.staticFriction), nuD = load(m.dynamicFriction);
   ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
   const Lanes last1 = load(t1.lambda), last2 = load(t2.lambda), twisted = load(m.twist);
-  if (positive(nuS + nuD + last1 * last1 + last2 * last2 + twisted * twisted) == 0) {
+  const Lanes grip = (nuS + nuD) * normal;
+  if (positive(grip + last1 * last1 + last2 * last2 + twisted * twisted) == 0) {
     return {all(0), all(0), all(0)};  // nothing grips, or did
   }
   const Lanes3 d1 = load(t1.d), d2 = load(t2.d);
@@ -131,13 +132,13 @@ inline void sweepVelocitiesBlock(ContactBlock& m, LaneMotion* motions, VelocityS
     normal = normal + total;
     turning = turning + load(p.lever) * total;
   }
-  if (which.last && holds) {
+  if (which.left < 2 && holds) {
     Lanes change = zero;
     for (int i = 0; i < kCount; ++i) {
       const Lanes inverse = load(m.point[i].inverse), squared = deltas[i] * deltas[i];
       change = change + wherePositive(inverse, squared / larger(inverse, all(kTiny)), zero);
     }
-    store(m.change, change);
+    store(m.change[which.left], change);
   }
   Lanes3 impulse = n * sum;
   if (which.rows != ContactRows::kNormal)

@@ -74,7 +74,7 @@ inline void prepareFriction(ContactBlock& m, const Lanes3& n, const Roots& a, co
   store(m.inverse22, a11 * inverse);
   prepareTwist(m, n, a, b);
   // The last friction, which the host left as a world vector in the `lambda` of both and `change`.
-  const Lanes3 last = {load(t1.lambda), load(t2.lambda), load(m.change)};
+  const Lanes3 last = {load(t1.lambda), load(t2.lambda), load(m.change[0])};
   store(t1.lambda, dot(last, d1));
   store(t2.lambda, dot(last, d2));
 }

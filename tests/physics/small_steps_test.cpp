@@ -278,7 +278,7 @@ TEST_P(ContactKernelsOf, GiveTheSameBytesInHalvesAndInOne) {
     kernels.warmStart(&block, 1, moved);
     kernels.sweepPositions(&block, 1, moved, {});
     for (int k = 0; k < 3; ++k) {
-      kernels.sweepVelocities(&block, 1, moved, {.first = k == 0, .last = k == 2});
+      kernels.sweepVelocities(&block, 1, moved, {.first = k == 0, .left = 2 - k});
     }
   };
   ContactBlock narrow = start, wide = start;
