@@ -39,9 +39,7 @@ void placeIncident(const Solid& s, const Relative& toFace, const Vec3& d, const 
     if (s.halfLength > 0) add(s.half, 1);
     return;
   }
-  int axis = 0;
-  d.cwiseAbs().maxCoeff(&axis);
-  for (const int id : kBoxFaces[2 * axis + (d[axis] > 0 ? 1 : 0)]) add(cornerOf(s, id), id);
+  for (const int id : kBoxFaces[nearestFace(s, d)]) add(cornerOf(s, id), id);
 }
 
 Corner cut(const Corner& from, const Corner& to, double fromOut, double toOut, int side) {

@@ -19,9 +19,11 @@ constexpr double kRimDeeper = 1e-4;  // a rim has no corners to keep to
 // Of the way that corners turn by until the next look: half of it on the average, at half of their
 // reach. What faces is as near as what is nearest now if it is further by no more.
 constexpr double kShareOfTurn = 0.25;
-constexpr double kFacing = 0.95;  // cosine: nothing resolved turns by 0.3 rad until the next look
-constexpr double kSamePlace =
-    4 * kSideTolerance;  // where lines touch and where a face is cut by one
+// Cosine of 0.3 rad, which nothing resolved turns by until the next look. Without it heaps cost 2
+// to 5 % more and are held no better.
+constexpr double kFacing = 0.95;
+// Of the smaller size: a corner that is cut this near to where lines touch is that place again.
+constexpr double kSamePlace = 4 * kSideTolerance;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 Line placed(const Line& line, const Relative& pose) {

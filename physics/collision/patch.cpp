@@ -100,7 +100,7 @@ void cutSegment(Patch& patch, const Out& out, std::uint32_t side) {
 }  // namespace
 
 int nearestFace(const Solid& s, const Vec3& d) {
-  constexpr double kEqual = 1e-9;  // the first of those that differ by rounding
+  constexpr double kEqual = 1e-9;  // of cosines: the first of faces that differ by rounding alone
   int best = 0;
   if (s.kind == Kind::box) {
     for (int axis = 1; axis < 3; ++axis) {
@@ -147,8 +147,9 @@ void facetPatch(const Solid& s, int index, Patch& patch) {
   patch.count = 0;
   patch.radius = 0;
   if (s.kind == Kind::box) {  // as below, out of the hull's way
-    for (const int id : kBoxFaces[index])
+    for (const int id : kBoxFaces[index]) {
       patch.add(cornerOf(s, id), static_cast<std::uint32_t>(id));
+    }
     return;
   }
   const std::vector<int>& ids = s.hull->faces[index].vertices;

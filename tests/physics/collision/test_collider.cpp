@@ -237,8 +237,8 @@ TEST(Collider, ABarThatLiesOnAnEdgeKnowsTheOneItTurnsTo) {
   EXPECT_NEAR(far.onB.x(), -0.5, 1e-2);
 }
 
-// Two bars that are nearly parallel: where they part, their sides face each other by less than they
-// do in the middle, and the points are on both.
+// Two bars that are nearly parallel: where they part, their sides are further from each other than
+// in the middle, and points face each other along the normal.
 TEST(Collider, BarsThatNearlyLieAlongEachOtherKnowWhereTheyPart) {
   const double radius = 0.1, half = 0.5, degrees = 8;
   const Pose lower{}, upper{Vec3(0, 0, 2 * radius), turned(Vec3::UnitZ(), degrees)};
