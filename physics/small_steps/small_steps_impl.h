@@ -347,6 +347,8 @@ struct SmallSteps::Impl {
   void balanceContacts(Model& w, Batch& batch);
   void displaceBody(Model& w, BodyId i);
   void displaceAll(Model& w, Batch& batch);
+  Vec3 spinAtEnd(const Bodies& b, BodyId i) const;
+  void forgetClosing(Model& w, Batch& batch, double h);
   template <class F>
   static void forEachLane(const Batch& batch, F&& f);
   void noteApproach(Model& w, Batch& batch, double h);
@@ -356,6 +358,7 @@ struct SmallSteps::Impl {
   void addWork(const Model& w, const Batch& batch, std::vector<double>& work);
   bool findRise(Model& w, Batch& batch);
   void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares);
+  void forgetLoads(Model& w, Batch& batch);
   void boundWork(Model& w, Batch& batch, const JointStage& stage);
   void solvePositions(Model& w, Batch& batch, double h);
   void sweepDeformables(Model& w, Batch& batch, double h);

@@ -177,7 +177,6 @@ void SmallSteps::Impl::displaceAll(Model& w, Batch& batch) {
                          });
 }
 
-// Angular momentum is kept while the inertia turns.
 void SmallSteps::Impl::displaceBody(Model& w, BodyId i) {
   Bodies& b = w.bodies;
   Displacement& m = moved[i];
@@ -190,10 +189,27 @@ void SmallSteps::Impl::displaceBody(Model& w, BodyId i) {
     }
     return;
   }
-  const Vec3 given = m.theta - spins[i];
-  const Vec3 momentum = inertias[i] * (length[i] * b.velocity[i].w + given);
   masses[i].inertia = worldInertia(b.pose[i].q.toRotationMatrix(), b.inverseInertia[i]);
-  m.theta = masses[i].inertia * momentum;
+  m.theta = spinAtEnd(b, i);
+}
+
+// Angular momentum is kept while the inertia turns.
+Vec3 SmallSteps::Impl::spinAtEnd(const Bodies& b, BodyId i) const {
+  const Vec3 given = moved[i].theta - spins[i];
+  return masses[i].inertia * (inertias[i] * (length[i] * b.velocity[i].w + given));
+}
+
+// What brings joints together that are apart is no motion, nor what contacts gave in turns with it.
+void SmallSteps::Impl::forgetClosing(Model& w, Batch& batch, double h) {
+  if (batch.articulations.empty() || !batch.joints.findApart(change)) return;
+  if (!batch.blocks.empty() && batch.takesTurns()) forgetLoads(w, batch);
+  const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
+  batch.joints.forgetClosing(stage, predicted);
+  for (const int k : batch.articulations) {
+    for (const BodyId i : articulations[k].bodies()) {
+      if (change[i] > 0 && inertiaOf[i] == Inertia::kOther) moved[i].theta = spinAtEnd(w.bodies, i);
+    }
+  }
 }
 
 // Positions of deformables and their contacts.
@@ -251,8 +267,8 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
                             batch.touches ? std::span<const Vec3>() : meanSpins};
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
-  if (batch.joints.isApart()) {
-    for (const BodyId i : batch.bodies) predicted[i] = moved[i];
+  for (const int k : batch.articulations) {
+    for (const BodyId i : articulations[k].bodies()) predicted[i] = moved[i];
   }
   if (w.settings.maxCorrectionSpeed) batch.joints.leave(stage, h * *w.settings.maxCorrectionSpeed);
   if (count > 0 && batch.takesTurns()) {
@@ -284,7 +300,6 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
-  batch.joints.forgetClosing(stage, predicted);
   batch.joints.prepareVelocities(stage);
   batch.joints.solveVelocities(stage);
   for (const int k : batch.deformables) {
@@ -328,6 +343,7 @@ void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& rep
   displaceAll(w, batch);
   renewTurned(w, batch);
   noteGiven(w, batch);
+  forgetClosing(w, batch, h);
   giveOtherHalf(w, batch, h);
   solveVelocities(w, batch, h);
   profileScope("motion");

@@ -119,6 +119,24 @@ void SmallSteps::Impl::takeBack(Batch& batch, ContactBlock& block, const LaneNum
   contactKernels().warmStart(&back, 1, batch.motions.data());
 }
 
+// Of bodies that are marked.
+void SmallSteps::Impl::forgetLoads(Model& w, Batch& batch) {
+  const auto isMarked = [&](BodyId i) { return articulationOf[i] >= 0 && change[i] > 0; };
+  for (ContactBlock& block : batch.blocks) {
+    LaneNumbers shares;
+    bool some = false;
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      if (block.contact[l] < 0) continue;
+      const KeptContact& c = contacts[block.contact[l]];
+      if (!isMarked(c.a) && !isMarked(c.b)) continue;
+      shares.of[l] = 1;
+      some = true;
+    }
+    if (some) takeBack(batch, block, shares);
+  }
+  fromLanes(w, batch);
+}
+
 // Contacts take back by a body's own mass what they gave too much, but joints pass on to the others
 // most of what it was given: what a hit leaves behind would throw figures. Joints of the other
 // islands stay as they are.

@@ -93,10 +93,11 @@ void JointPacks::seeStart(const JointStage& stage) {
   forEach([&](auto& pack) { pack.seeStart(stage); });
 }
 
-bool JointPacks::isApart() const {
-  const auto isApart = [](const auto& pack) { return pack.isApart(); };
-  return std::any_of(ones_.begin(), ones_.begin() + oneCount_, isApart) ||
-         std::any_of(fours_.begin(), fours_.begin() + fourCount_, isApart);
+bool JointPacks::findApart(std::span<double> marks) const {
+  bool any = false;
+  for (std::size_t k = 0; k < oneCount_; ++k) any = ones_[k].findApart(marks) || any;
+  for (std::size_t k = 0; k < fourCount_; ++k) any = fours_[k].findApart(marks) || any;
+  return any;
 }
 
 void JointPacks::forgetClosing(const JointStage& stage, std::span<const Displacement> predicted) {

@@ -60,7 +60,7 @@ class Articulation {
   bool givesWay() const { return givesWay_; }            // a spring, drive or damper is at work
   JointResponse& response() { return response_; }        // of bodies that contacts touch
   const JointResponse& response() const { return response_; }
-  bool isOpened() const { return isOpened_; }  // a substep since `take` has taken joints apart
+  bool isOpened() const { return isOpened_; }  // a substep since `take` has not closed its joints
   void setOpened(bool opened) { isOpened_ = opened; }
   bool hasLoop() const;  // of bodies, all that do not move being one
   void forget();         // what it pulled with in the last substep
@@ -108,7 +108,7 @@ class JointPack {
   void stiffen(std::span<Mat3> stiffness) const;
   void leave(const JointStage& stage, double most);
   void seeStart(const JointStage& stage);
-  bool isApart() const;
+  bool findApart(std::span<double> marks) const;
   void forgetClosing(const JointStage& stage, std::span<const Displacement> predicted);
   void seePositions(const JointStage& stage);
   void followPositions(const JointStage& stage);
@@ -129,7 +129,12 @@ class JointPack {
     std::array<JointRow::Role, W> role{};
     std::array<bool, W> active{}, hasStart{};  // its J is the start's
   };
+  struct Trial {  // by row and body, and what rows are off by there
+    std::vector<std::array<Num<W>, 3>> lambda, u, theta;
+    std::array<double, W> off{};
+  };
   JointView<W> view();
+  bool isApart() const;
   void place(bool back);
   void restorePoses(const JointStage& stage) const;
   void seeOthers(const JointStage& stage, bool all, bool inPositions);
@@ -142,12 +147,14 @@ class JointPack {
   void see(const JointStage& stage, bool first);
   void noteSeen();
   void step();
-  void noteOpened(const JointStage& stage);
+  void giveUp(const Num<W>& far, double tolerance);
+  void leaveOpen(const JointStage& stage);
   bool isBeyondLimit(int lane) const;
-  bool hasGap(int lane) const;
+  bool hasGap(int lane, double most) const;
   double offOf(int lane) const;
-  void noteStep(int lane, double off);
-  bool goBack();
+  void note(int lane, double off, Trial& trial) const;
+  void moveTo(const Trial& trial, int lane, double keeps);
+  void goBack(const Num<W>& far);
   void begin();
   void chooseFree();
   void chooseCarrying();
@@ -174,7 +181,8 @@ class JointPack {
   std::vector<Num<W>> entries_, scaled_;  // of blocks below the diagonal
   std::vector<State> states_;             // by row
   Num<W> open_{};
-  std::array<bool, W> apart_{};  // where the step began, and since
+  std::array<bool, W> apart_{};  // where the step began, and since; or not closed in this substep
+  std::array<bool, W> given_{};  // up, by closePositions
   std::vector<char> used_;
   std::vector<int> usedBelow_, usedCounts_;
   std::vector<Num<W>> tail_, tailWork_;  // A, and what it is solved with
@@ -188,10 +196,7 @@ class JointPack {
   std::vector<JointFactor<W>> keptFactors_;
   std::vector<Num<W>> keptTail_, keptScaled_;
   std::vector<std::array<Num<W>, 4>> keptTurns_;
-  struct {  // where the last step of Newton's began, by row and body, and what it was off by
-    std::vector<std::array<Num<W>, 3>> lambda, u, theta;
-    std::array<double, W> off{};
-  } steps_;
+  Trial predicted_, steps_;  // where the substep began; where the last step of Newton's began
 };
 
 // The articulations of a batch.
@@ -201,10 +206,11 @@ class JointPacks {
   void stiffen(std::span<Mat3> stiffness) const;  // adds what joints pull with, by BodyId
   // Before the substep, where errors are taken back by at most so much [m, rad].
   void leave(const JointStage& stage, double most);
-  // Joints that are apart where a step begins: what brings them together is no motion, and bodies
-  // go on from what was `predicted` before, and what forces gave them.
+  // Joints that are apart where a step begins, or that Newton's steps have not closed: what brings
+  // them together is no motion, and bodies go on from what was `predicted` before, and what forces
+  // gave them. Marks by BodyId which these are; true: there are some.
   void seeStart(const JointStage& stage);
-  bool isApart() const;
+  bool findApart(std::span<double> marks) const;
   void forgetClosing(const JointStage& stage, std::span<const Displacement> predicted);
   // Begins a substep: evaluates the rows where the bodies are. Then, as often as they were given
   // something since, solves for positions by these rows.

@@ -80,11 +80,11 @@ void scatterMotion(std::span<const BodyId> ids, int lanes, const std::vector<boo
 }
 
 template <int W>
-void scatterPoses(std::span<const BodyId> ids, int lanes, const std::vector<bool>& moves,
-                  std::span<const JointBody<W>> bodies, std::span<Pose> pose) {
+void scatterPoses(std::span<const BodyId> ids, int lanes, std::span<const JointBody<W>> bodies,
+                  std::span<Pose> pose) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto& q = bodies[i].q;
-    for (int l = 0; moves[i] && l < lanes; ++l) {
+    for (int l = 0; l < lanes; ++l) {
       pose[ids[i * W + l]] = {read(bodies[i].x, l),
                               Quat(q[0].v[l], q[1].v[l], q[2].v[l], q[3].v[l])};
     }

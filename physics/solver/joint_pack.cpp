@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostRounds = 6;    // of finding which rows are at a bound
 constexpr int kMostSteps = 5;     // of Newton's, after the first
-constexpr double kOpened = 0.01;  // of its arm: a gap that no joint has
+constexpr double kOpened = 0.01;  // of its arm: a gap that no joint has where a step begins
 
 }  // namespace
 
@@ -32,9 +32,11 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     scaled_.assign(topology_->lower, Num<W>{});
     states_.assign(topology_->shapes.size(), State{});
     used_.resize(rows_.size());
-    steps_.lambda.resize(rows_.size());
-    steps_.u.resize(topology_->bodyCount);
-    steps_.theta.resize(topology_->bodyCount);
+    for (Trial* trial : {&predicted_, &steps_}) {
+      trial->lambda.resize(rows_.size());
+      trial->u.resize(topology_->bodyCount);
+      trial->theta.resize(topology_->bodyCount);
+    }
     usedCounts_.resize(rows_.size());
     usedBelow_.resize(topology_->below.size());
     const std::size_t tail = rows_.size() - topology_->tailStart;
@@ -101,21 +103,19 @@ JointView<W> JointPack<W>::view() {
 
 template <int W>
 void JointPack<W>::restorePoses(const JointStage& stage) const {
-  for (int l = 0; l < lanes_; ++l) {
-    for (const BodyId body : of_[l]->bodies_) stage.pose[body] = stage.start[body];
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto& q = bodies_[i].startQ;
+    for (int l = 0; l < lanes_; ++l) {
+      stage.pose[ids_[i * W + l]] = {read(bodies_[i].startX, l),
+                                     Quat(q[0].v[l], q[1].v[l], q[2].v[l], q[3].v[l])};
+    }
   }
 }
 
-// Trial poses of what joints move; the others stand where they are.
+// Trial poses: of what joints move, and of what moves by itself.
 template <int W>
 void JointPack<W>::place(bool back) {
   jointKernels<W>().place(view());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (topology_->moves[i]) continue;
-    JointBody<W>& body = bodies_[i];
-    std::copy(std::begin(body.startX), std::end(body.startX), std::begin(body.x));
-    std::copy(std::begin(body.startQ), std::end(body.startQ), std::begin(body.q));
-  }
   if (back) jointKernels<W>().turnBack(view());
   jointKernels<W>().seeGaps(view(), back);
   seenSince_ = true;
@@ -363,7 +363,7 @@ void JointPack<W>::see(const JointStage& stage, bool first) {
   kernels.seeLimits(view(), first);
   if (topology_->others.empty()) return;
   if (first) seeWays(stage);
-  scatterPoses<W>(ids_, lanes_, topology_->moves, bodies_, stage.pose);
+  scatterPoses<W>(ids_, lanes_, bodies_, stage.pose);
   seeOthers(stage, first, true);
   restorePoses(stage);
 }
@@ -393,7 +393,7 @@ template <int W>
 void JointPack<W>::seeStart(const JointStage& stage) {
   gatherPoses<W>(ids_, stage.pose, bodies_);
   jointKernels<W>().seeGaps(view(), false);
-  for (int l = 0; l < lanes_; ++l) apart_[l] = hasGap(l);
+  for (int l = 0; l < lanes_; ++l) apart_[l] = hasGap(l, kOpened);
 }
 
 template <int W>
@@ -401,8 +401,16 @@ bool JointPack<W>::isApart() const {
   return std::any_of(apart_.begin(), apart_.begin() + lanes_, [](bool apart) { return apart; });
 }
 
-// What constraints gave is left out, and what forces gave stays. Then, at the end of the substep,
-// those that are together by now stay so.
+template <int W>
+bool JointPack<W>::findApart(std::span<double> marks) const {
+  for (int l = 0; l < lanes_; ++l) {
+    for (const BodyId i : of_[l]->bodies_) marks[i] = apart_[l] ? 1 : 0;
+  }
+  return isApart();
+}
+
+// What constraints gave is left out, and what forces gave stays. Those that are together by now, at
+// the end of the substep, stay so.
 template <int W>
 void JointPack<W>::forgetClosing(const JointStage& stage, std::span<const Displacement> predicted) {
   if (!isApart()) return;
@@ -441,6 +449,7 @@ void JointPack<W>::seePositions(const JointStage& stage) {
   noteCarried();
   begin();
   chooseFree();
+  for (int l = 0; l < lanes_; ++l) note(l, 0, predicted_);
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
@@ -507,69 +516,94 @@ double JointPack<W>::offOf(int l) const {
   return off;
 }
 
-// From where the next step of Newton's begins.
 template <int W>
-void JointPack<W>::noteStep(int l, double off) {
-  steps_.off[l] = off;
+void JointPack<W>::note(int l, double off, Trial& trial) const {
+  trial.off[l] = off;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    write(steps_.lambda[i].data(), l, read(rows_[i].lambda, l));
+    write(trial.lambda[i].data(), l, read(rows_[i].lambda, l));
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    write(steps_.u[i].data(), l, read(bodies_[i].u, l));
-    write(steps_.theta[i].data(), l, read(bodies_[i].theta, l));
+    write(trial.u[i].data(), l, read(bodies_[i].u, l));
+    write(trial.theta[i].data(), l, read(bodies_[i].theta, l));
   }
 }
 
-// Lanes that the last step took further off go back half of it, and wait. True: there are some.
+// Keeps a share of the way since.
 template <int W>
-bool JointPack<W>::goBack() {
-  bool any = false;
+void JointPack<W>::moveTo(const Trial& trial, int l, double keeps) {
+  const auto move = [&](Num<W>* value, const Num<W>* to) {
+    const Vec3 end = read(to, l);
+    write(value, l, (end + keeps * (read(value, l) - end)).eval());
+  };
+  for (std::size_t i = 0; i < rows_.size(); ++i) move(rows_[i].lambda, trial.lambda[i].data());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    move(bodies_[i].u, trial.u[i].data());
+    move(bodies_[i].theta, trial.theta[i].data());
+  }
+}
+
+// Of those that are far, lanes that the last step took further off keep half of it, and wait.
+template <int W>
+void JointPack<W>::goBack(const Num<W>& far) {
   for (int l = 0; l < lanes_; ++l) {
-    if (!(open_.v[l] > 0)) continue;
+    if (!(far.v[l] > 0) || !(open_.v[l] > 0)) continue;
     const double off = offOf(l);
     if (!(off > steps_.off[l])) {
-      noteStep(l, off);
+      note(l, off, steps_);
       continue;
     }
-    const auto half = [&](Num<W>* value, const Num<W>* from) {
-      write(value, l, (0.5 * (read(value, l) + read(from, l))).eval());
-    };
-    for (std::size_t i = 0; i < rows_.size(); ++i) half(rows_[i].lambda, steps_.lambda[i].data());
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      half(bodies_[i].u, steps_.u[i].data());
-      half(bodies_[i].theta, steps_.theta[i].data());
-    }
-    any = stale_[l] = true;
+    moveTo(steps_, l, 0.5);
+    stale_[l] = true;
     open_.v[l] = 0;
   }
-  return any;
 }
 
 template <int W>
-bool JointPack<W>::hasGap(int l) const {
+bool JointPack<W>::hasGap(int l, double most) const {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!topology_->shapes[i].isGap) continue;
     const JointLanes<W>& row = rows_[i];
     const double arm2 =
         std::max(read(row.arm[0], l).squaredNorm(), read(row.arm[1], l).squaredNorm());
     const double gap2 = (read(row.c, l) - read(row.left, l)).squaredNorm();
-    if (arm2 > 0 && !(gap2 <= kOpened * kOpened * arm2)) return true;
+    if (arm2 > 0 && !(gap2 <= most * most * arm2)) return true;
   }
   return false;
 }
 
-// Lanes that Newton's steps have not closed, where nothing was open before.
+// Of lanes that are far, those whose gaps are, where none was open before, take no step that is not
+// looked at.
 template <int W>
-void JointPack<W>::noteOpened(const JointStage& stage) {
-  place(false);
-  std::array<bool, W> isOpen{};
-  for (int l = 0; l < lanes_; ++l) isOpen[l] = hasGap(l);
-  if (std::none_of(isOpen.begin(), isOpen.end(), [](bool open) { return open; })) return;
+void JointPack<W>::giveUp(const Num<W>& far, double tolerance) {
+  for (int l = 0; l < lanes_; ++l) {
+    given_[l] = far.v[l] > 0 && !apart_[l] && hasGap(l, tolerance);
+    if (!given_[l]) continue;
+    if (offOf(l) < steps_.off[l]) note(l, offOf(l), steps_);
+    open_.v[l] = 0;
+  }
+}
+
+// These go to where they were the least off, of Newton's steps and of what was predicted. What they
+// move by is no motion, and the step was too long.
+template <int W>
+void JointPack<W>::leaveOpen(const JointStage& stage) {
+  if (std::none_of(given_.begin(), given_.end(), [](bool given) { return given; })) return;
+  for (int l = 0; l < lanes_; ++l) {
+    if (given_[l]) moveTo(predicted_, l, 0);
+  }
+  openAll();
+  see(stage, false);
+  noteSeen();
+  jointKernels<W>().aimAtErrors(view());
+  for (int l = 0; l < lanes_; ++l) {
+    if (given_[l] && !(offOf(l) < steps_.off[l])) moveTo(steps_, l, 0);
+  }
   gatherPoses<W>(ids_, stage.pose, bodies_);
-  jointKernels<W>().seeGaps(view(), false);
   jointKernels<W>().seeLimits(view(), true);
   for (int l = 0; l < lanes_; ++l) {
-    of_[l]->isOpened_ = of_[l]->isOpened_ || (isOpen[l] && !hasGap(l) && !isBeyondLimit(l));
+    if (!given_[l]) continue;
+    of_[l]->isOpened_ = of_[l]->isOpened_ || !isBeyondLimit(l);
+    apart_[l] = true;
   }
 }
 
@@ -585,30 +619,33 @@ bool JointPack<W>::isBeyondLimit(int l) const {
   return false;
 }
 
-// Newton's method, until what is off before a step is no more than `tolerance` of the arms.
+// Newton's method, until what is off before a step is no more than `tolerance` of the arms. Where
+// rows hardly differ, a step that closes them by a little takes bodies anywhere, and the next one
+// further.
 template <int W>
 void JointPack<W>::closePositions(const JointStage& stage, double tolerance) {
   const JointKernels<W>& kernels = jointKernels<W>();
   openAll();
   gatherMotion<W>(ids_, stage.moved, bodies_);
-  for (int k = 0; k < kMostSteps; ++k) {
+  steps_.off.fill(std::numeric_limits<double>::infinity());
+  for (int k = 0;; ++k) {
     see(stage, false);
     noteSeen();
     if (k == 0 && !stage.spin.empty()) stale_.fill(true);  // the factor is of arms turned back
     kernels.aimAtErrors(view());
-    Num<W> open = open_;
-    const bool waits = k > 0 && goBack();
-    const Num<W> steps = open_;
-    const bool isFar = kernels.findOpen(view(), tolerance);
-    for (int l = 0; l < W; ++l) {
-      if (steps.v[l] > 0) open.v[l] = open_.v[l];
-      if (k == 0 && l < lanes_ && open_.v[l] > 0) noteStep(l, offOf(l));
-    }
-    open_ = steps;
-    step();
-    if (!isFar && !waits) break;
+    const Num<W> open = open_;
+    const bool isFar = kernels.findOpen(view(), tolerance), isLast = k == kMostSteps;
+    const Num<W> far = open_;
     open_ = open;
-    if (k + 1 == kMostSteps) noteOpened(stage);
+    if (isFar && isLast) giveUp(far, tolerance);
+    if (isFar) goBack(far);
+    step();
+    if (!isFar) break;
+    open_ = far;
+    if (isLast) {
+      leaveOpen(stage);
+      break;
+    }
   }
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }

@@ -358,5 +358,24 @@ TEST(SmallSteps, WhatIsHitDoesNotGoThroughTheWallBehindIt) {
   }
 }
 
+// A hand that is led along and turned, with an arm hanging from it.
+TEST(SmallSteps, JointsStayClosedAtABodyThatMovesByItself) {
+  Settings settings;
+  settings.gravity = Vec3(0, -9.81, 0);
+  World world(settings);
+  const BodyId hand =
+      addBody(world, Box{Vec3(0.1, 0.1, 0.1)}, Vec3(0, 5, 0), 1, Motion::kKinematic);
+  const BodyId arm = addBody(world, Box{Vec3(0.1, 0.4, 0.1)}, Vec3(0.1, 4.7, 0));
+  BallSocketDef def;
+  def.bodies = {hand, arm};
+  def.at = Vec3(0.1, 4.95, 0);
+  world.add(def);
+  world.setVelocity(hand, {Vec3(2, 0, 0.5), Vec3(0, 1, 3)});
+  for (int k = 0; k < 60; ++k) {
+    world.step();
+    ASSERT_LT(world.constraintErrors().at(0).largest, 1e-10) << "step " << k;  // 1.2e-12
+  }
+}
+
 }  // namespace
 }  // namespace physics::testing
