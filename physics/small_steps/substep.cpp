@@ -15,9 +15,6 @@ constexpr double kNewSpin = 0.25, kTurnedBack = 0.9;
 // rad: what turns further in a substep is damped as well and, where no joint holds it, turned as it
 // would turn freely: to second order in the step it would gain energy.
 constexpr double kResolvedTurn = 0.1;
-// What joints may be off by before the last step of Newton's, of their arms: joints alone, and
-// where contacts have pushed since and will push again.
-constexpr double kClosed = 1e-7, kNearlyClosed = 1e-4;
 
 // omega and half a substep on, by I^-1 (-omega x I omega).
 Vec3 meanSpin(const Mat3& inertia, const Mat3& inverse, const Vec3& omega, double h) {

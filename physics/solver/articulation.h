@@ -23,6 +23,11 @@ struct Displacement {
   Vec3 u = Vec3::Zero(), theta = Vec3::Zero();
 };
 
+// What joints may be off by before the last step of Newton's, of their arms: joints alone, and
+// where contacts have pushed since and will push again. What is off by more than the latter is not
+// closed.
+inline constexpr double kClosed = 1e-7, kNearlyClosed = 1e-4;
+
 // What impulses on some bodies of an articulation move these by while its joints hold,
 //   R = M^-1 - M^-1 J^T A^-1 J M^-1,
 // by pairs of them, in the units of their lanes: the articulated mass that contacts see. Limits are

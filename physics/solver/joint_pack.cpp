@@ -572,26 +572,33 @@ bool JointPack<W>::hasGap(int l, double most) const {
 }
 
 // Of lanes that are far, those whose gaps are, where none was open before, take no step that is not
-// looked at.
+// looked at: they go to where Newton's left them the least off.
 template <int W>
 void JointPack<W>::giveUp(const Num<W>& far, double tolerance) {
   for (int l = 0; l < lanes_; ++l) {
     given_[l] = far.v[l] > 0 && !apart_[l] && hasGap(l, tolerance);
     if (!given_[l]) continue;
     if (offOf(l) < steps_.off[l]) note(l, offOf(l), steps_);
+    moveTo(steps_, l, 0);
     open_.v[l] = 0;
   }
 }
 
-// These go to where they were the least off, of Newton's steps and of what was predicted. What they
-// move by is no motion, and the step was too long.
+// Those of them that are open there: what they move by is no motion, the step was too long, and
+// they stay where they were predicted if they are less off there.
 template <int W>
 void JointPack<W>::leaveOpen(const JointStage& stage) {
-  if (std::none_of(given_.begin(), given_.end(), [](bool given) { return given; })) return;
+  const auto any = [&] {
+    return std::any_of(given_.begin(), given_.end(), [](bool given) { return given; });
+  };
+  if (!any()) return;
+  openAll();
+  see(stage, false);
+  for (int l = 0; l < lanes_; ++l) given_[l] = given_[l] && hasGap(l, kNearlyClosed);
+  if (!any()) return;
   for (int l = 0; l < lanes_; ++l) {
     if (given_[l]) moveTo(predicted_, l, 0);
   }
-  openAll();
   see(stage, false);
   noteSeen();
   jointKernels<W>().aimAtErrors(view());
