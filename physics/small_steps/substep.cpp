@@ -264,20 +264,20 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
                             batch.touches ? std::span<const Vec3>() : meanSpins};
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
-  for (const int k : batch.articulations) {
-    for (const BodyId i : articulations[k].bodies()) predicted[i] = moved[i];
-  }
   if (w.settings.maxCorrectionSpeed) batch.joints.leave(stage, h * *w.settings.maxCorrectionSpeed);
   if (count > 0 && batch.takesTurns()) {
     takeTurns(w, batch, stage);
   } else {
     batch.joints.seePositions(stage);
+    for (const int k : batch.articulations) {
+      for (const BodyId i : articulations[k].bodies()) predicted[i] = moved[i];
+    }
     batch.joints.followPositions(stage);
     if (count > 0) solveContactPositions(w, batch, stage);
   }
   sweepDeformables(w, batch, h);
   profileScope("direct");
-  batch.joints.closePositions(stage, batch.touches ? kNearlyClosed : kClosed);
+  batch.joints.closePositions(stage, predicted, batch.touches ? kNearlyClosed : kClosed);
   if (count > 0 && batch.isMixed()) toLanes(w, batch);
 }
 

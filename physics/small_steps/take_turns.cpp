@@ -119,7 +119,7 @@ void SmallSteps::Impl::takeBack(Batch& batch, ContactBlock& block, const LaneNum
   contactKernels().warmStart(&back, 1, batch.motions.data());
 }
 
-// Of bodies that are marked.
+// What contacts of bodies that are apart (their `change` is 1) gave, from both sides.
 void SmallSteps::Impl::forgetLoads(Model& w, Batch& batch) {
   const auto isMarked = [&](BodyId i) { return articulationOf[i] >= 0 && change[i] > 0; };
   for (ContactBlock& block : batch.blocks) {

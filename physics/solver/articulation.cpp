@@ -124,8 +124,9 @@ void JointPacks::tell(const JointStage& stage) {
   forEach([&](auto& pack) { pack.tell(stage); });
 }
 
-void JointPacks::closePositions(const JointStage& stage, double tolerance) {
-  forEach([&](auto& pack) { pack.closePositions(stage, tolerance); });
+void JointPacks::closePositions(const JointStage& stage, std::span<const Displacement> predicted,
+                                double tolerance) {
+  forEach([&](auto& pack) { pack.closePositions(stage, predicted, tolerance); });
 }
 
 void JointPacks::prepareVelocities(const JointStage& stage) {

@@ -120,7 +120,8 @@ class JointPack {
   void startTurns(const JointStage& stage, const LaneBodies& lanes);
   void followPositions(const LaneBodies& lanes);
   void tell(const JointStage& stage) const;
-  void closePositions(const JointStage& stage, double tolerance);
+  void closePositions(const JointStage& stage, std::span<const Displacement> predicted,
+                      double tolerance);
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage, std::span<const double> wanted);
@@ -133,10 +134,6 @@ class JointPack {
   struct State {  // of a row that its kind evaluates, by lane
     std::array<JointRow::Role, W> role{};
     std::array<bool, W> active{}, hasStart{};  // its J is the start's
-  };
-  struct Trial {  // by row and body, and what rows are off by there
-    std::vector<std::array<Num<W>, 3>> lambda, u, theta;
-    std::array<double, W> off{};
   };
   JointView<W> view();
   bool isApart() const;
@@ -153,12 +150,13 @@ class JointPack {
   void noteSeen();
   void step();
   void giveUp(const Num<W>& far, double tolerance);
-  void leaveOpen(const JointStage& stage);
+  void leaveOpen(const JointStage& stage, std::span<const Displacement> predicted);
   bool isBeyondLimit(int lane) const;
   bool hasGap(int lane, double most) const;
   double offOf(int lane) const;
-  void note(int lane, double off, Trial& trial) const;
-  void moveTo(const Trial& trial, int lane, double keeps);
+  void noteStep(int lane, double off);
+  void goBack(int lane, double keeps);
+  void goToPredicted(std::span<const Displacement> predicted, int lane);
   void goBack(const Num<W>& far);
   void begin();
   void chooseFree();
@@ -201,7 +199,10 @@ class JointPack {
   std::vector<JointFactor<W>> keptFactors_;
   std::vector<Num<W>> keptTail_, keptScaled_;
   std::vector<std::array<Num<W>, 4>> keptTurns_;
-  Trial predicted_, steps_;  // where the substep began; where the last step of Newton's began
+  struct {  // where the last step of Newton's began, by row and body, and what it was off by
+    std::vector<std::array<Num<W>, 3>> lambda, u, theta;
+    std::array<double, W> off{};
+  } steps_;
 };
 
 // The articulations of a batch.
@@ -227,7 +228,8 @@ class JointPacks {
   void followPositions(const LaneBodies& lanes);
   void tell(const JointStage& stage);
   // As often as it takes until what is off is `tolerance` of the arms, before another step.
-  void closePositions(const JointStage& stage, double tolerance);
+  void closePositions(const JointStage& stage, std::span<const Displacement> predicted,
+                      double tolerance);
   // Evaluates at the end of the substep; then, as often as contacts are swept:
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);

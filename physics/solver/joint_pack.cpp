@@ -32,11 +32,9 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     scaled_.assign(topology_->lower, Num<W>{});
     states_.assign(topology_->shapes.size(), State{});
     used_.resize(rows_.size());
-    for (Trial* trial : {&predicted_, &steps_}) {
-      trial->lambda.resize(rows_.size());
-      trial->u.resize(topology_->bodyCount);
-      trial->theta.resize(topology_->bodyCount);
-    }
+    steps_.lambda.resize(rows_.size());
+    steps_.u.resize(topology_->bodyCount);
+    steps_.theta.resize(topology_->bodyCount);
     usedCounts_.resize(rows_.size());
     usedBelow_.resize(topology_->below.size());
     const std::size_t tail = rows_.size() - topology_->tailStart;
@@ -420,7 +418,7 @@ void JointPack<W>::forgetClosing(const JointStage& stage, std::span<const Displa
   gatherMotion<W>(ids_, stage.moved, bodies_);
   for (const int i : topology_->others) {
     for (int l = 0; l < lanes_; ++l) {
-      const bool pushes = states_[i].active[l] && states_[i].role[l] != JointRow::Role::kConstraint;
+      const bool pushes = states_[i].active[l] && states_[i].role[l] == JointRow::Role::kForce;
       if (!apart_[l] || !pushes) continue;
       give<W>(topology_->shapes[i], rows_[i], l, read(rows_[i].lambda, l), bodies_);
     }
@@ -449,7 +447,6 @@ void JointPack<W>::seePositions(const JointStage& stage) {
   noteCarried();
   begin();
   chooseFree();
-  for (int l = 0; l < lanes_; ++l) note(l, 0, predicted_);
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
 
@@ -516,29 +513,46 @@ double JointPack<W>::offOf(int l) const {
   return off;
 }
 
+// From where the next step of Newton's begins.
 template <int W>
-void JointPack<W>::note(int l, double off, Trial& trial) const {
-  trial.off[l] = off;
+void JointPack<W>::noteStep(int l, double off) {
+  steps_.off[l] = off;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    write(trial.lambda[i].data(), l, read(rows_[i].lambda, l));
+    write(steps_.lambda[i].data(), l, read(rows_[i].lambda, l));
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    write(trial.u[i].data(), l, read(bodies_[i].u, l));
-    write(trial.theta[i].data(), l, read(bodies_[i].theta, l));
+    write(steps_.u[i].data(), l, read(bodies_[i].u, l));
+    write(steps_.theta[i].data(), l, read(bodies_[i].theta, l));
   }
 }
 
-// Keeps a share of the way since.
+// Back there, but for a share of the step.
 template <int W>
-void JointPack<W>::moveTo(const Trial& trial, int l, double keeps) {
-  const auto move = [&](Num<W>* value, const Num<W>* to) {
-    const Vec3 end = read(to, l);
-    write(value, l, (end + keeps * (read(value, l) - end)).eval());
+void JointPack<W>::goBack(int l, double keeps) {
+  const auto move = [&](Num<W>* value, const Num<W>* from) {
+    const Vec3 start = read(from, l);
+    write(value, l, (start + keeps * (read(value, l) - start)).eval());
   };
-  for (std::size_t i = 0; i < rows_.size(); ++i) move(rows_[i].lambda, trial.lambda[i].data());
+  for (std::size_t i = 0; i < rows_.size(); ++i) move(rows_[i].lambda, steps_.lambda[i].data());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    move(bodies_[i].u, trial.u[i].data());
-    move(bodies_[i].theta, trial.theta[i].data());
+    move(bodies_[i].u, steps_.u[i].data());
+    move(bodies_[i].theta, steps_.theta[i].data());
+  }
+}
+
+// As if nothing but loads pulled.
+template <int W>
+void JointPack<W>::goToPredicted(std::span<const Displacement> predicted, int l) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const bool isLoad = topology_->shapes[i].seen == JointSeen::kByKind && states_[i].active[l] &&
+                        states_[i].role[l] == JointRow::Role::kLoad;
+    if (!isLoad) write(rows_[i].lambda, l, Vec3::Zero());
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!topology_->moves[i]) continue;
+    const Displacement& from = predicted[ids_[i * W + l]];
+    write(bodies_[i].u, l, from.u);
+    write(bodies_[i].theta, l, from.theta);
   }
 }
 
@@ -549,10 +563,10 @@ void JointPack<W>::goBack(const Num<W>& far) {
     if (!(far.v[l] > 0) || !(open_.v[l] > 0)) continue;
     const double off = offOf(l);
     if (!(off > steps_.off[l])) {
-      note(l, off, steps_);
+      noteStep(l, off);
       continue;
     }
-    moveTo(steps_, l, 0.5);
+    goBack(l, 0.5);
     stale_[l] = true;
     open_.v[l] = 0;
   }
@@ -578,8 +592,8 @@ void JointPack<W>::giveUp(const Num<W>& far, double tolerance) {
   for (int l = 0; l < lanes_; ++l) {
     given_[l] = far.v[l] > 0 && !apart_[l] && hasGap(l, tolerance);
     if (!given_[l]) continue;
-    if (offOf(l) < steps_.off[l]) note(l, offOf(l), steps_);
-    moveTo(steps_, l, 0);
+    if (offOf(l) < steps_.off[l]) noteStep(l, offOf(l));
+    goBack(l, 0);
     open_.v[l] = 0;
   }
 }
@@ -587,7 +601,7 @@ void JointPack<W>::giveUp(const Num<W>& far, double tolerance) {
 // Those of them that are open there: what they move by is no motion, the step was too long, and
 // they stay where they were predicted if they are less off there.
 template <int W>
-void JointPack<W>::leaveOpen(const JointStage& stage) {
+void JointPack<W>::leaveOpen(const JointStage& stage, std::span<const Displacement> predicted) {
   const auto any = [&] {
     return std::any_of(given_.begin(), given_.end(), [](bool given) { return given; });
   };
@@ -597,13 +611,13 @@ void JointPack<W>::leaveOpen(const JointStage& stage) {
   for (int l = 0; l < lanes_; ++l) given_[l] = given_[l] && hasGap(l, kNearlyClosed);
   if (!any()) return;
   for (int l = 0; l < lanes_; ++l) {
-    if (given_[l]) moveTo(predicted_, l, 0);
+    if (given_[l]) goToPredicted(predicted, l);
   }
   see(stage, false);
   noteSeen();
   jointKernels<W>().aimAtErrors(view());
   for (int l = 0; l < lanes_; ++l) {
-    if (given_[l] && !(offOf(l) < steps_.off[l])) moveTo(steps_, l, 0);
+    if (given_[l] && !(offOf(l) < steps_.off[l])) goBack(l, 0);
   }
   gatherPoses<W>(ids_, stage.pose, bodies_);
   jointKernels<W>().seeLimits(view(), true);
@@ -630,7 +644,8 @@ bool JointPack<W>::isBeyondLimit(int l) const {
 // rows hardly differ, a step that closes them by a little takes bodies anywhere, and the next one
 // further.
 template <int W>
-void JointPack<W>::closePositions(const JointStage& stage, double tolerance) {
+void JointPack<W>::closePositions(const JointStage& stage, std::span<const Displacement> predicted,
+                                  double tolerance) {
   const JointKernels<W>& kernels = jointKernels<W>();
   openAll();
   gatherMotion<W>(ids_, stage.moved, bodies_);
@@ -650,7 +665,7 @@ void JointPack<W>::closePositions(const JointStage& stage, double tolerance) {
     if (!isFar) break;
     open_ = far;
     if (isLast) {
-      leaveOpen(stage);
+      leaveOpen(stage, predicted);
       break;
     }
   }
