@@ -261,15 +261,19 @@ SmallSteps::Batch& SmallSteps::Impl::lanesFor(Model& w, std::span<Trial* const> 
   clear(together);
   together.sweeps = batches[group[0]->batch].sweeps;
   together.touches = true;
-  together.partOf.assign(1, 0);
   for (std::size_t part = 0; part < group.size(); ++part) {
     const Batch& batch = batches[group[part]->batch];
     group[part]->isLaidOut = false;
     together.bodies.insert(together.bodies.end(), batch.bodies.begin(), batch.bodies.end());
     together.contacts.insert(together.contacts.end(), batch.contacts.begin(), batch.contacts.end());
-    together.partOf.insert(together.partOf.end(), batch.bodies.size(), static_cast<int>(part));
   }
   layOut(w, together);
+  together.partOf.assign(together.slots.size(), 0);
+  for (std::size_t part = 0; part < group.size(); ++part) {
+    for (const BodyId i : batches[group[part]->batch].bodies) {
+      together.partOf[slotOf[i]] = static_cast<int>(part);
+    }
+  }
   return together;
 }
 

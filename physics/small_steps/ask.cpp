@@ -104,7 +104,7 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactB
 // Of islands: summed in the order of the contacts, for the same bytes on any number of threads.
 void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch) {
   weighed.resize(batch.blocks.size());
-  forEachRun(w, batch, [&](int from, int to) {
+  forEachGroup(w, batch, [&](int from, int to) {
     for (int i = from; i < to; ++i) {
       const ContactBlock& block = batch.blocks[i];
       for (int l = 0; l < ContactBlock::kLanes; ++l) {

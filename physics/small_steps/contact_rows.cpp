@@ -1,5 +1,6 @@
 // Contacts into the lanes that sweep over them, and back.
 #include <algorithm>
+#include <bit>
 
 #include "physics/collision/feature.h"
 #include "physics/small_steps/small_steps_impl.h"
@@ -7,27 +8,38 @@
 namespace physics {
 namespace {
 
-// Bits of a word; the last one is for what a body with more contacts has left. Lists are by colour,
-// by whether both bodies move, and by whether joints respond.
-constexpr int kColours = 64, kColourLists = 4 * kColours;
-// Of a colour those of the same bodies lie together, by parts of all contacts: a thread meets the
-// same bodies in each colour, and finds them in its cache.
-constexpr int kParts = 8, kLeastOfPart = 1024;  // that fill blocks of each colour
+// Bits of a word; the last one is for what a body with more contacts has left.
+constexpr int kColours = 64;
+// Contacts are dealt to threads by parts of so many; of more parts, more lie between them.
+constexpr int kLeastOfPart = 2048, kMostLevels = 5;
 
-// The last colour of each kind is the overflow: a block each.
+// The last colour of each group is the overflow: a block each.
 int laneStride(int list) { return list % kColours == kColours - 1 ? ContactBlock::kLanes : 1; }
 
-// Blocks up to `end`, which are of one colour if they are `independent`.
-void addRun(int end, bool independent, bool responds, std::vector<BlockRun>& runs) {
-  const int begin = runs.empty() ? 0 : runs.back().first + runs.back().count, count = end - begin;
-  if (count == 0) return;
-  const bool shared = independent && count >= 2 * kLeastBlocks && !responds;
-  if (!shared && !runs.empty() && !runs.back().shared && runs.back().responds == responds) {
-    runs.back().count += count;
-  } else {
-    runs.push_back({begin, count, shared, responds});
-  }
+// Halvings of a batch with so many contacts.
+int levelsOf(int count) {
+  int levels = 0;
+  while (levels < kMostLevels && count >> (levels + 1) >= kLeastOfPart) ++levels;
+  return levels;
 }
+
+// Groups in the order in which they are swept, by nested dissection (George 1973): the parts, what
+// crosses from one to its neighbour, what crosses between these two and the next two, and so on to
+// the first cut; what responds; and by parts what meets that which does not move, and of that what
+// responds. Groups of a stage share no body that moves.
+struct GroupOrder {
+  int levels;
+  int parts() const { return 1 << levels; }
+  int stages() const { return levels + 4; }
+  int responding() const { return levels + 1; }  // the stage, as the next two
+  int fixed() const { return levels + 2; }
+  int respondingFixed() const { return levels + 3; }
+  int first(int stage) const {  // group
+    if (stage <= responding()) return 2 * parts() - (2 * parts() >> stage);
+    return stage == fixed() ? 2 * parts() : 3 * parts() + (stage - respondingFixed());
+  }
+  int count() const { return first(stages()); }
+};
 
 }  // namespace
 
@@ -60,28 +72,44 @@ BodyId SmallSteps::Impl::leaderOf(BodyId i) const {
   return k >= 0 && responding[k] ? articulations[k].bodies().front() : i;
 }
 
-int SmallSteps::Impl::colourOf(const Bodies& b, const KeptContact& c) {
-  const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0;
-  auto& used = movesA && movesB ? colours : coloursFixed;
-  const BodyId a = leaderOf(c.a), other = leaderOf(c.b);
-  const std::uint64_t taken = (movesA ? used[a] : 0) | (movesB ? used[other] : 0);
-  int colour = kColours - 1;
-  if (~taken != 0) colour = std::min(__builtin_ctzll(~taken), kColours - 1);
-  if (movesA) used[a] |= std::uint64_t{1} << colour;
-  if (movesB) used[other] |= std::uint64_t{1} << colour;
-  return colour + (movesA && movesB ? 0 : 2 * kColours) + (meetsResponse(c) ? kColours : 0);
+SmallSteps::Impl::Group SmallSteps::Impl::groupOf(const Bodies& b, const KeptContact& c,
+                                                  int levels) const {
+  const GroupOrder order{levels};
+  const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0,
+             responds = meetsResponse(c);
+  const auto partOf = [&](BodyId i) { return bisection.partOf(slotOf[i] - 1); };
+  if (!movesA || !movesB) {
+    if (responds) return {order.first(order.respondingFixed()), levels + 1};
+    return {order.first(order.fixed()) + partOf(movesA ? c.a : c.b), levels + 1};
+  }
+  if (responds) return {order.first(order.responding()), levels};
+  const int a = partOf(c.a), level = std::bit_width(static_cast<unsigned>(a ^ partOf(c.b)));
+  return {order.first(level) + (a >> level), level};
 }
 
-// A slot to every body, where it meets anything.
-void SmallSteps::Impl::takeSlots(Batch& batch) {
+// Of a level, whose colours begin at `first`.
+int SmallSteps::Impl::colourOf(const Bodies& b, const KeptContact& c, std::size_t first) {
+  const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0;
+  std::uint64_t& ofA = colours[first + (movesA ? slotOf[leaderOf(c.a)] : 0)];
+  std::uint64_t& ofB = colours[first + (movesB ? slotOf[leaderOf(c.b)] : 0)];
+  const std::uint64_t taken = (movesA ? ofA : 0) | (movesB ? ofB : 0);
+  int colour = kColours - 1;
+  if (~taken != 0) colour = std::min(__builtin_ctzll(~taken), kColours - 1);
+  ofA |= std::uint64_t{1} << colour;
+  ofB |= std::uint64_t{1} << colour;
+  return colour;
+}
+
+// A slot to every body, where it meets anything; those of a part follow each other.
+void SmallSteps::Impl::takeSlots(const Model& w, Batch& batch, int levels) {
   batch.slots.assign(1, kWorldBody);
-  batch.runs.clear();
+  batch.groups.assign(1, 0);
+  batch.stages.clear();
   if (batch.contacts.empty()) return batch.blocks.clear();
-  for (const BodyId i : batch.bodies) {
-    slotOf[i] = static_cast<int>(batch.slots.size());
-    batch.slots.push_back(i);
-    colours[i] = coloursFixed[i] = 0;
-  }
+  batch.slots.insert(batch.slots.end(), batch.bodies.begin(), batch.bodies.end());
+  bisection.divide(w.bodies.pose, levels, std::span(batch.slots).subspan(1));
+  for (std::size_t s = 1; s < batch.slots.size(); ++s) slotOf[batch.slots[s]] = static_cast<int>(s);
+  colours.assign((levels + 2) * batch.slots.size(), 0);
   batch.motions.assign(batch.slots.size(), LaneMotion{});
   batch.masses.assign(batch.slots.size(), LaneMass{});
   batch.inverses.resize(batch.slots.size());
@@ -90,38 +118,47 @@ void SmallSteps::Impl::takeSlots(Batch& batch) {
 
 // Contacts of one colour share no body that moves. First those of two bodies that move, then those
 // with what does not, so that a sweep ends with nothing driven into a wall. A body with more
-// contacts than there are colours has the others one by one. Of a part those that carried come
+// contacts than there are colours has the others one by one. Of a colour those that carried come
 // first, and of these those with most points: a block takes as long as its largest manifold, and
 // where none carries it has no friction.
 void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
   constexpr int kLanes = ContactBlock::kLanes, kSorts = 2 * ContactBlock::kPoints;
-  takeSlots(batch);
+  const int count = static_cast<int>(batch.contacts.size());
+  const GroupOrder order{levelsOf(count)};
+  takeSlots(w, batch, order.levels);
   if (batch.contacts.empty()) return;
   takeResponses(batch);
   placeOf.resize(batch.contacts.size());
-  const int count = static_cast<int>(batch.contacts.size());
-  const int part = std::max(count / kParts + 1, kLeastOfPart);
-  const int places = ((count - 1) / part + 1) * kSorts;
-  firstOf.assign(static_cast<std::size_t>(kColourLists) * places, 0);  // and by sort
-  std::array<bool, kColourLists> isUsed{};
+  firstOf.assign(static_cast<std::size_t>(order.count()) * kColours * kSorts, 0);
+  groupColours.assign(order.count(), 0);
   for (int i = 0; i < count; ++i) {
     const KeptContact& c = contacts[batch.contacts[i]];
-    const int list = colourOf(w.bodies, c);
+    const Group group = groupOf(w.bodies, c, order.levels);
+    const int colour = colourOf(w.bodies, c, group.level * batch.slots.size());
     const int sort = (c.isLoaded() ? 1 : 2) * ContactBlock::kPoints - std::max(c.count, 1);
-    placeOf[i] = list * places + i / part * kSorts + sort;
+    groupColours[group.place] |= std::uint64_t{1} << colour;
+    placeOf[i] = (group.place * kColours + colour) * kSorts + sort;
     ++firstOf[placeOf[i]];
-    isUsed[list] = true;
   }
   int lanes = 0;
-  for (int list = 0; list < kColourLists; ++list) {
-    if (!isUsed[list]) continue;
-    for (int k = list * places; k < (list + 1) * places; ++k) {
-      const int more = firstOf[k] * laneStride(list);
-      firstOf[k] = lanes;
-      lanes += more;
+  for (int stage = 0; stage < order.stages(); ++stage) {
+    const int first = static_cast<int>(batch.groups.size()) - 1;
+    for (int group = order.first(stage); group < order.first(stage + 1); ++group) {
+      if (groupColours[group] == 0) continue;
+      for (std::uint64_t left = groupColours[group]; left != 0; left &= left - 1) {
+        const int list = group * kColours + std::countr_zero(left);
+        for (int k = list * kSorts; k < (list + 1) * kSorts; ++k) {
+          const int more = firstOf[k] * laneStride(list);
+          firstOf[k] = lanes;
+          lanes += more;
+        }
+        lanes = (lanes + kLanes - 1) / kLanes * kLanes;
+      }
+      batch.groups.push_back(lanes / kLanes);
     }
-    lanes = (lanes + kLanes - 1) / kLanes * kLanes;
-    addRun(lanes / kLanes, laneStride(list) == 1, list / kColours % 2 == 1, batch.runs);
+    const int end = static_cast<int>(batch.groups.size()) - 1;
+    const bool responds = stage == order.responding() || stage == order.respondingFixed();
+    if (end > first) batch.stages.push_back({first, end, responds});
   }
   batch.blocks.resize(lanes / kLanes);
   for (ContactBlock& block : batch.blocks) {
@@ -133,7 +170,7 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
     ContactBlock& block = batch.blocks[place / kLanes];
     block.contact[place % kLanes] = batch.contacts[i];
     block.points = std::max(block.points, contacts[batch.contacts[i]].count);
-    place += laneStride(placeOf[i] / places);
+    place += laneStride(placeOf[i] / kSorts);
   }
   for (ContactBlock& block : batch.blocks) {
     for (int l = 0; l < kLanes; ++l) {
@@ -263,7 +300,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
     }
   });
   const FrictionAt friction = frictionAt(w, batch);
-  forEachRun(w, batch, [&](int from, int to) {
+  forEachGroup(w, batch, [&](int from, int to) {
     for (int i = from; i < to; ++i) fill(w, batch, batch.blocks[i]);
     contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), friction);
   });
@@ -273,7 +310,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
 // Multipliers from the lanes to the contacts that are kept.
 void SmallSteps::Impl::takeOver(Model& w, Batch& batch) {
   physics::takeOver(batch.softRows, batch.soft);
-  forEachRun(w, batch, [&](int from, int to) {
+  forEachGroup(w, batch, [&](int from, int to) {
     for (int i = from; i < to; ++i) {
       for (int l = 0; l < ContactBlock::kLanes; ++l) takeOver(w.bodies, batch.blocks[i], l);
     }

@@ -130,7 +130,7 @@ void SmallSteps::Impl::renewTurned(Model& w, Batch& batch) {
     startRows(batch.motions[s]);
     toLane(batch, static_cast<int>(s));
   }
-  forEachRun(w, batch, [&](int from, int to) {
+  forEachGroup(w, batch, [&](int from, int to) {
     for (int i = from; i < to; ++i) renew(w, batch, batch.blocks[i]);
   });
 }

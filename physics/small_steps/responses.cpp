@@ -135,8 +135,9 @@ void SmallSteps::Impl::respond(Batch& batch) {
     }
   }
   batch.joints.respond();
-  for (const BlockRun& run : batch.runs) {
-    for (int k = run.first; run.responds && k < run.first + run.count; ++k) {
+  for (const BlockStage& stage : batch.stages) {
+    if (!stage.responds) continue;
+    for (int k = batch.groups[stage.first]; k < batch.groups[stage.end]; ++k) {
       for (int l = 0; l < ContactBlock::kLanes; ++l) {
         if (batch.blocks[k].contact[l] >= 0) prepareResponses(batch, batch.blocks[k], l);
       }

@@ -53,8 +53,6 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   law.resize(bodies);
   batchOf.resize(bodies);
   slotOf.resize(bodies);
-  colours.resize(bodies);
-  coloursFixed.resize(bodies);
   inertiaOf.resize(bodies);
   length.resize(bodies);
   masses.resize(bodies);

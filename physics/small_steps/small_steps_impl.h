@@ -31,17 +31,18 @@
 #include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps.h"
 #include "physics/solver/articulation.h"
+#include "physics/solver/bisection.h"
 #include "physics/solver/contact_block.h"
 #include "physics/solver/deformable.h"
 #include "physics/solver/soft_rows.h"
 
 namespace physics {
 
-// Blocks that follow each other. `shared`: they are of one colour, and may be swept at a time.
+// Groups of blocks that share no body which moves, so that they may be swept at a time.
 // `responds`: what they give goes through joints.
-struct BlockRun {
-  int first = 0, count = 0;
-  bool shared = false, responds = false;
+struct BlockStage {
+  int first = 0, end = 0;  // of the batch's groups
+  bool responds = false;
 };
 
 // A body of an articulation that responds, and what contacts gave it in a stage, in the units of
@@ -63,7 +64,7 @@ struct KeptStart {
 };
 
 // What pays for being dealt to threads.
-constexpr int kLeastBodies = 64, kLeastBlocks = 8;
+constexpr int kLeastBodies = 64, kLeastBlocks = 32;
 
 // Substeps at the least, where settings say nothing. Contacts that take no turns with joints are
 // swept once in each, and ropes and meshes are not done after one either; joints are solved in
@@ -117,7 +118,8 @@ struct SmallSteps::Batch {
   std::vector<SoftRow> softRows;
   Contacts impacts;  // with restitution only: the pairs of `contacts`, for one substep
   std::vector<ContactBlock> blocks;
-  std::vector<BlockRun> runs;         // all of them, in order
+  std::vector<int> groups;            // of blocks, in order: the first of each, and the end
+  std::vector<BlockStage> stages;     // of groups, in order
   std::vector<LaneMotion> motions;    // by slot; 0 is what does not move
   std::vector<Responder> responders;  // by slot; empty: none
   std::vector<LaneStart> before;      // of the motions, when the bodies last knew of them
@@ -221,13 +223,15 @@ struct SmallSteps::Impl {
   std::vector<Batch> batches;
   std::size_t batchCount = 0;
   Islands islands;
-  std::vector<int> batchOf, slotOf;                  // by body
-  std::vector<std::uint64_t> colours, coloursFixed;  // by body: taken by its contacts
-  std::vector<char> responding;                      // by articulation: contacts see its mass
+  std::vector<int> batchOf, slotOf;    // by body
+  Bisection bisection;                 // of the batch that is laid out
+  std::vector<std::uint64_t> colours;  // the same, by level and slot: taken by contacts
+  std::vector<std::uint64_t> groupColours;  // and by group
+  std::vector<char> responding;        // by articulation: contacts see its mass
   std::vector<int> finer;          // by articulation: substeps that its joints ask for, 0: none
   std::vector<char> opened;        // of an island with joints, by its first body: they came apart
   std::vector<int> placeOf;        // scratch, of a batch's contacts
-  std::vector<int> firstOf;        // the same: the first lane of a colour's, of a part
+  std::vector<int> firstOf;        // the same: the first lane of a colour's, of a sort
   std::vector<Inertia> inertiaOf;  // by body, of this step
   std::vector<double> length;      // by body: of its substep [s], one for all of an island
   std::vector<JointMass> masses;
@@ -304,10 +308,14 @@ struct SmallSteps::Impl {
   void assign(Model& w);
   void assign(const Model& w, BodyId i);
   Batch& batchFor(const Model& w, BodyId root);
-  int colourOf(const Bodies& b, const KeptContact& c);
+  struct Group {  // of blocks: where it is in the order of all, and the level whose colours it takes
+    int place = 0, level = 0;
+  };
+  Group groupOf(const Bodies& b, const KeptContact& c, int levels) const;
+  int colourOf(const Bodies& b, const KeptContact& c, std::size_t first);
   BodyId leaderOf(BodyId i) const;
   bool meetsResponse(const KeptContact& c) const;
-  void takeSlots(Batch& batch);
+  void takeSlots(const Model& w, Batch& batch, int levels);
   void takeResponses(Batch& batch);
   void respond(Batch& batch);
   void prepareResponses(Batch& batch, ContactBlock& block, int lane) const;
@@ -316,9 +324,11 @@ struct SmallSteps::Impl {
   template <class F>
   void sweepResponding(Batch& batch, ContactBlock& block, F&& kernel) const;
   template <class F>
-  static void forEachChunk(Model& w, const BlockRun& run, F&& f);
+  static void forEachGroup(Model& w, const Batch& batch, const BlockStage& stage, F&& f);
   template <class F>
-  static void forEachRun(Model& w, const Batch& batch, F&& f);
+  static void forEachGroup(Model& w, const Batch& batch, F&& f);
+  template <class F>
+  static void forEachBody(Model& w, const Batch& batch, F&& f);
   template <class F>
   void sweep(Model& w, Batch& batch, std::initializer_list<ContactRows> responding, F&& kernel);
   void layOut(Model& w, Batch& batch);
@@ -466,18 +476,33 @@ void SmallSteps::Impl::sweepResponding(Batch& batch, ContactBlock& block, F&& ke
   }
 }
 
-// f(from, to) of the blocks of a run, dealt to threads where these share it.
+// f(from, to) of the blocks of groups, dealt to threads where that pays.
 template <class F>
-void SmallSteps::Impl::forEachChunk(Model& w, const BlockRun& run, F&& f) {
-  w.workers.forEachChunk(run.count, run.shared ? kLeastBlocks : run.count,
-                         [&](int from, int to) { f(run.first + from, run.first + to); });
+void SmallSteps::Impl::forEachGroup(Model& w, const Batch& batch, const BlockStage& stage, F&& f) {
+  const int* const starts = &batch.groups[stage.first];
+  const int count = stage.end - stage.first;
+  const bool pays = starts[count] - starts[0] >= kLeastBlocks;
+  w.workers.forEachChunk(count, pays ? 1 : count,
+                         [&](int from, int to) { f(starts[from], starts[to]); });
 }
 
 // The same of all blocks, by what depends on no other: dealt as sweeps deal them, lines of the
 // cache stay where they are.
 template <class F>
-void SmallSteps::Impl::forEachRun(Model& w, const Batch& batch, F&& f) {
-  for (const BlockRun& run : batch.runs) forEachChunk(w, run, f);
+void SmallSteps::Impl::forEachGroup(Model& w, const Batch& batch, F&& f) {
+  for (const BlockStage& stage : batch.stages) forEachGroup(w, batch, stage, f);
+}
+
+// f(body, slot) of all, dealt to threads as their contacts are. Slots are theirs where there are
+// contacts.
+template <class F>
+void SmallSteps::Impl::forEachBody(Model& w, const Batch& batch, F&& f) {
+  const BodyId* const bodies =
+      batch.contacts.empty() ? batch.bodies.data() : batch.slots.data() + 1;
+  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
+                         [&](int from, int to) {
+                           for (int k = from; k < to; ++k) f(bodies[k], k + 1);
+                         });
 }
 
 // kernel(blocks, count, rows) of what may be swept at a time, in order. Where joints respond the
@@ -486,17 +511,18 @@ template <class F>
 void SmallSteps::Impl::sweep(Model& w, Batch& batch, std::initializer_list<ContactRows> responding,
                              F&& kernel) {
   ContactBlock* const blocks = batch.blocks.data();
-  for (const BlockRun& run : batch.runs) {
-    if (run.responds) {
-      for (int k = run.first; k < run.first + run.count; ++k) {
+  for (const BlockStage& stage : batch.stages) {
+    if (stage.responds) {
+      for (int k = batch.groups[stage.first]; k < batch.groups[stage.end]; ++k) {
         for (const ContactRows rows : responding) {
           sweepResponding(batch, blocks[k],
                           [&](ContactBlock* b, int count) { kernel(b, count, rows); });
         }
       }
     } else {
-      forEachChunk(w, run,
-                   [&](int from, int to) { kernel(blocks + from, to - from, ContactRows::kAll); });
+      forEachGroup(w, batch, stage, [&](int from, int to) {
+        kernel(blocks + from, to - from, ContactRows::kAll);
+      });
     }
   }
 }

@@ -40,12 +40,7 @@ void SmallSteps::Impl::predict(Model& w, Batch& batch, bool first) {
     for (const BodyId i : articulations[k].bodies()) stiffness[i].setZero();
   }
   batch.joints.stiffen(stiffness);
-  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
-                         [&](int from, int to) {
-                           for (int k = from; k < to; ++k) {
-                             predictBody(w, batch, batch.bodies[k], first);
-                           }
-                         });
+  forEachBody(w, batch, [&](BodyId i, int) { predictBody(w, batch, i, first); });
 }
 
 // Bodies that joints alone hold are given half of gravity and loads before they move, and half
@@ -157,21 +152,17 @@ void SmallSteps::Impl::lookAgain(Model& w, Batch& batch, double h) {
 void SmallSteps::Impl::displaceAll(Model& w, Batch& batch) {
   const bool inLanes = !batch.blocks.empty(), alone = inLanes && !batch.isMixed();
   const bool isGiven = giveExactly(w, batch);
-  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
-                         [&](int from, int to) {
-                           for (int k = from; k < to; ++k) {
-                             const BodyId i = batch.bodies[k];
-                             if (alone && !isGiven) fromLane(batch, k + 1);
-                             displaceBody(w, i);
-                             if (!inLanes) continue;
-                             LaneMotion& lane = batch.motions[k + 1];
-                             for (int c = 0; c < 3; ++c) {
-                               lane.du[c] += lane.u[c];
-                               lane.dturn[c] += lane.turn[c];
-                             }
-                             if (alone && inertiaOf[i] == Inertia::kOther) toLane(batch, k + 1);
-                           }
-                         });
+  forEachBody(w, batch, [&](BodyId i, int slot) {
+    if (alone && !isGiven) fromLane(batch, slot);
+    displaceBody(w, i);
+    if (!inLanes) return;
+    LaneMotion& lane = batch.motions[slot];
+    for (int c = 0; c < 3; ++c) {
+      lane.du[c] += lane.u[c];
+      lane.dturn[c] += lane.turn[c];
+    }
+    if (alone && inertiaOf[i] == Inertia::kOther) toLane(batch, slot);
+  });
 }
 
 void SmallSteps::Impl::displaceBody(Model& w, BodyId i) {
@@ -345,17 +336,13 @@ void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& rep
   solveVelocities(w, batch, h);
   profileScope("motion");
   const bool alone = !batch.blocks.empty() && !batch.isMixed(), isGiven = giveExactly(w, batch);
-  w.workers.forEachChunk(static_cast<int>(batch.bodies.size()), kLeastBodies,
-                         [&](int from, int to) {
-                           for (int k = from; k < to; ++k) {
-                             const BodyId i = batch.bodies[k];
-                             if (inertiaOf[i] == Inertia::kGiven) continue;
-                             if (alone && !isGiven) fromLane(batch, k + 1);
-                             const double rate = 1 / length[i];
-                             b.velocity[i].v = rate * moved[i].u;
-                             b.velocity[i].w = rate * moved[i].theta;
-                           }
-                         });
+  forEachBody(w, batch, [&](BodyId i, int slot) {
+    if (inertiaOf[i] == Inertia::kGiven) return;
+    if (alone && !isGiven) fromLane(batch, slot);
+    const double rate = 1 / length[i];
+    b.velocity[i].v = rate * moved[i].u;
+    b.velocity[i].w = rate * moved[i].theta;
+  });
   bounce(w, batch, h);
   profileScope("");
   const auto touching = static_cast<std::int64_t>(batch.contacts.size() + batch.softRows.size());
