@@ -261,11 +261,20 @@ std::span<const Found> Collider::look(std::span<const Pose> start, std::span<con
   require(margin >= 0, "collider: margin must not be negative");
   if (!impl_) return {};
   profileScope("broad_phase");
-  impl_->pairs.update(start, end, margin, push, workers);
+  Pairs& pairs = impl_->pairs;
+  const bool changes = pairs.update(start, end, margin, push, workers);
   impl_->step = {start, end, margin};
   profileScope("narrow_phase");
-  workers.forEachChunk(static_cast<int>(impl_->pairs.watches().size()), kLeastPairs,
-                       [&](int from, int to) { impl_->lookAt(from, to); });
+  const auto lookAt = [&](int from, int to) {
+    if (changes && from == 0) pairs.updateTree();
+    impl_->lookAt(from, to);
+  };
+  if (pairs.watches().empty()) lookAt(0, 0);
+  workers.forEachChunk(static_cast<int>(pairs.watches().size()), kLeastPairs, lookAt);
+  profileScope("broad_phase");
+  if (changes) {
+    for (const int k : pairs.findNew(workers)) impl_->look(pairs.watches()[k]);
+  }
   impl_->gather();
   profileScope("contact");
   return impl_->found;

@@ -2,8 +2,10 @@
 #include "physics/collision/pairs.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace physics::collision {
 namespace {
@@ -160,29 +162,52 @@ void Pairs::name(const Watch& watch, Manifold& manifold) const {
   manifold.pair = pairKey(watch.a, watch.b);
 }
 
-void Pairs::dropParted() {
-  std::size_t kept = 0;
+bool Pairs::isParted(const Watch& watch) const {
+  const auto [p, q] = watch.items();
+  if (!moved_[p] && !moved_[q] && !ignoredMore_) return false;
+  return !touches(p, q) || (ignoredMore_ && !wanted(items_[p], items_[q]));
+}
+
+void Pairs::dropParted(Workers& workers) {
+  constexpr int kLeastWatches = 256;  // of a thread
+  parted_.resize(watches_.size());
+  workers.forEachChunk(static_cast<int>(watches_.size()), kLeastWatches, [&](int from, int to) {
+    for (int k = from; k < to; ++k) parted_[k] = isParted(watches_[k]);
+  });
+  watchedAt_.assign(items_.size() + 1, 0);
+  others_.clear();
   for (std::size_t k = 0; k < watches_.size(); ++k) {
-    const auto [p, q] = watches_[k].items();
-    const bool asBefore = !moved_[p] && !moved_[q] && !ignoredMore_;
-    if (asBefore || (touches(p, q) && (!ignoredMore_ || wanted(items_[p], items_[q])))) {
-      if (kept < k) watches_[kept] = watches_[k];
-      ++kept;
-    } else {
+    if (parted_[k]) {
       free_.push_back(watches_[k].finding);
+      continue;
     }
+    if (others_.size() < k) watches_[others_.size()] = watches_[k];
+    others_.push_back(watches_[k].b);
+    ++watchedAt_[watches_[k].a + 1];
   }
-  watches_.resize(kept);
+  watches_.resize(others_.size());
+  std::partial_sum(watchedAt_.begin(), watchedAt_.end(), watchedAt_.begin());
+}
+
+bool Pairs::isWatched(int p, int q) const {
+  const auto from = others_.begin() + watchedAt_[p], to = others_.begin() + watchedAt_[p + 1];
+  return std::find(from, to, q) != to;
 }
 
 void Pairs::offer(int p, int q, std::vector<std::pair<int, int>>& fresh) const {
   if (items_[p].rests && items_[q].rests) return;
-  if (!touches(p, q) || !wanted(items_[p], items_[q])) return;
-  fresh.push_back(isFirst(items_[p], items_[q]) ? std::pair(p, q) : std::pair(q, p));
+  if (!isFirst(items_[p], items_[q])) std::swap(p, q);
+  if (isWatched(p, q) || !touches(p, q) || !wanted(items_[p], items_[q])) return;
+  fresh.emplace_back(p, q);
+}
+
+void Pairs::updateTree() {
+  tree_.update(movedTree_, treeBounds_);
+  ++broadPhaseCalls_;
 }
 
 // Each pair once, though it is found from both where both moved.
-void Pairs::findNew(Workers& workers) {
+std::span<const int> Pairs::findNew(Workers& workers) {
   constexpr int kLeastItems = 16;  // of a thread
   const int moved = static_cast<int>(movedTree_.size());
   offers_.resize(std::max<std::size_t>(offers_.size(), moved / kLeastItems + 1));
@@ -206,20 +231,16 @@ void Pairs::findNew(Workers& workers) {
   }
   std::sort(fresh_.begin(), fresh_.end());
   mergeFresh();
+  ignoredMore_ = false;
+  return freshAt_;
 }
 
-// Those of fresh_ that are not watched yet take their places, from the back.
+// They take their places, from the back.
 void Pairs::mergeFresh() {
   const auto isBefore = [](const Watch& w, const std::pair<int, int>& p) { return w.items() < p; };
-  auto at = watches_.begin();
-  std::erase_if(fresh_, [&](const std::pair<int, int>& pair) {
-    std::ptrdiff_t stride = 1;  // the next one is not far as a rule
-    while (stride < watches_.end() - at && isBefore(at[stride], pair)) stride *= 2;
-    at = std::lower_bound(at, at + std::min(stride + 1, watches_.end() - at), pair, isBefore);
-    return at != watches_.end() && at->items() == pair;
-  });
   std::ptrdiff_t old = std::ssize(watches_);
   makeRoom(fresh_.size());
+  freshAt_.resize(fresh_.size());
   watches_.resize(watches_.size() + fresh_.size());
   auto to = watches_.end();
   for (std::size_t k = fresh_.size(); k-- > 0;) {
@@ -227,6 +248,7 @@ void Pairs::mergeFresh() {
     const auto behind = std::lower_bound(watches_.begin(), end, fresh_[k], isBefore);
     to = std::move_backward(behind, end, to);
     *--to = newWatch(fresh_[k].first, fresh_[k].second);
+    freshAt_[k] = static_cast<int>(to - watches_.begin());
     old = behind - watches_.begin();
   }
 }
@@ -250,60 +272,72 @@ void Pairs::setMotion(Item& item, const Mat3& R, const Pose& from, const Pose& t
   item.turn = item.solid.coreRadius * 2 * (from.q.conjugate() * to.q).vec().norm();
 }
 
-void Pairs::fatten(int i, const Bounds& bounds, double margin) {
-  const Item& item = items_[i];
-  fat_[i] = fattened(item.solid, bounds, item.move, margin);
+void Pairs::toTree(int i) {
   if (treeIndex_[i] < 0) {
     treeIndex_[i] = static_cast<int>(itemOfTree_.size());
     itemOfTree_.push_back(i);
     treeBounds_.push_back(fat_[i]);
-    tree_.add(fat_[i], item.solid.kind == Kind::point);
+    tree_.add(fat_[i], items_[i].solid.kind == Kind::point);
   }
   treeBounds_[treeIndex_[i]] = fat_[i];
   movedTree_.push_back(treeIndex_[i]);
 }
 
-// True: every bound has to be taken anew.
-bool Pairs::takeMotions(std::span<const Pose> start, std::span<const Pose> end,
-                        std::span<const double> push, bool all) {
+// f(item) of those whose motion is taken.
+template <class F>
+void Pairs::forEachTaken(Workers& workers, F&& f) const {
+  constexpr int kLeastItems = 64;  // of a thread
   for (const std::vector<int>* list : {&moving_, &late_}) {
-    for (const int i : *list) {
-      Item& item = items_[i];
-      item.push = push.empty() ? 0 : push[item.body];
-      all = takeMotion(i, start[item.body], end[item.body]) || all;
-    }
+    workers.forEachChunk(static_cast<int>(list->size()), kLeastItems, [&](int from, int to) {
+      for (int k = from; k < to; ++k) f((*list)[k]);
+    });
   }
-  return all;
 }
 
-void Pairs::takeBounds(int i, double margin, bool all) {
+// True: a plane moved.
+bool Pairs::takeMotions(std::span<const Pose> start, std::span<const Pose> end,
+                        std::span<const double> push, Workers& workers) {
+  std::atomic<bool> some = false;
+  forEachTaken(workers, [&](int i) {
+    Item& item = items_[i];
+    item.push = push.empty() ? 0 : push[item.body];
+    if (takeMotion(i, start[item.body], end[item.body])) some = true;
+  });
+  return some;
+}
+
+// True: they are others than before.
+bool Pairs::takeBounds(int i, double margin, bool all) {
   const Item& item = items_[i];
-  if (item.isPlane) return;
+  if (item.isPlane) return false;
   const Bounds bounds = path(item);
-  moved_[i] = all || !within(grown(bounds, margin), fat_[i]);
-  if (moved_[i]) fatten(i, bounds, margin);
+  if (!all && within(grown(bounds, margin), fat_[i])) return false;
+  fat_[i] = fattened(item.solid, bounds, item.move, margin);
+  return true;
 }
 
-void Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin,
+bool Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin,
                    std::span<const double> push, Workers& workers) {
   require(start.size() == end.size() && start.size() >= indexOf_.size(),
           "collider: start and end must hold a pose for each body");
   for (const int t : movedTree_) moved_[itemOfTree_[t]] = false;  // of the last time
   movedTree_.clear();
-  if (takeMotions(start, end, push, margin > margin_)) {
-    for (int i = 0; i < static_cast<int>(items_.size()); ++i) takeBounds(i, margin, true);
+  const bool all = takeMotions(start, end, push, workers) || margin > margin_;
+  if (all) {
+    for (int i = 0; i < static_cast<int>(items_.size()); ++i)
+      moved_[i] = takeBounds(i, margin, true);
   } else {
-    for (const int i : moving_) takeBounds(i, margin, false);
-    for (const int i : late_) takeBounds(i, margin, false);
+    forEachTaken(workers, [&](int i) { moved_[i] = takeBounds(i, margin, false); });
   }
   late_.clear();
   margin_ = std::max(margin, margin_);
-  if (movedTree_.empty() && !ignoredMore_) return;
-  dropParted();
-  tree_.update(movedTree_, treeBounds_);
-  ++broadPhaseCalls_;
-  findNew(workers);
-  ignoredMore_ = false;
+  for (int i = 0; i < static_cast<int>(items_.size()); ++i) {
+    if (moved_[i]) toTree(i);
+  }
+  freshAt_.clear();
+  if (movedTree_.empty() && !ignoredMore_) return false;
+  dropParted(workers);
+  return true;
 }
 
 bool Pairs::outdated(std::span<const Pose> start, std::span<const Pose> end,

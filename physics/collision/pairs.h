@@ -18,11 +18,16 @@ class Pairs {
   void ignore(BodyId a, BodyId b);
   const std::vector<std::pair<BodyId, BodyId>>& ignored() const { return ignored_; }
 
-  // Takes the motion of all items over and brings the list up to date: afterwards it holds every
-  // pair whose surfaces come within `margin` of each other between start and end. `push` [m], by
-  // BodyId or empty: of how much further a hit may take a body, towards what does not move.
-  void update(std::span<const Pose> start, std::span<const Pose> end, double margin,
+  // Takes the motion of all items over, and drops pairs that parted. `push` [m], by BodyId or
+  // empty: of how much further a hit may take a body, towards what does not move. False: there are
+  // no others, either.
+  bool update(std::span<const Pose> start, std::span<const Pose> end, double margin,
               std::span<const double> push, Workers& workers);
+  // Then the tree of bounds, while pairs that stay may be looked at.
+  void updateTree();
+  // Then the others: the list holds every pair whose surfaces come within `margin` of each other
+  // between start and end. Returned: the places of those that are new.
+  std::span<const int> findNew(Workers& workers);
   bool outdated(std::span<const Pose> start, std::span<const Pose> end,
                 std::span<const BodyId> bodies) const;
 
@@ -50,16 +55,19 @@ class Pairs {
  private:
   void addItem(BodyId body, const Shape& shape, bool movable);
   bool takeMotion(int item, const Pose& from, const Pose& to);  // true: a plane moved
-  void fatten(int item, const Bounds& bounds, double margin);
+  void toTree(int item);
+  template <class F>
+  void forEachTaken(Workers& workers, F&& f) const;
   bool takeMotions(std::span<const Pose> start, std::span<const Pose> end,
-                   std::span<const double> push, bool all);
-  void takeBounds(int item, double margin, bool all);
+                   std::span<const double> push, Workers& workers);
+  bool takeBounds(int item, double margin, bool all);
   bool bothRest(const Watch& watch) const { return items_[watch.a].rests && items_[watch.b].rests; }
   bool wanted(const Item& p, const Item& q) const;
   bool touches(int p, int q) const;  // of the fat bounds
-  void dropParted();
+  bool isParted(const Watch& watch) const;
+  void dropParted(Workers& workers);
+  bool isWatched(int p, int q) const;
   void offer(int p, int q, std::vector<std::pair<int, int>>& fresh) const;
-  void findNew(Workers& workers);
   void mergeFresh();
   void makeRoom(std::size_t more);
   Watch newWatch(int p, int q);
@@ -82,11 +90,14 @@ class Pairs {
   std::int64_t broadPhaseCalls_ = 0;
 
   std::vector<Watch> watches_;
-  std::vector<Watch> parked_;      // of two that rest; sorted
-  std::vector<Finding> findings_;  // beside the watches: seldom read while at rest
-  std::vector<int> free_;          // of the findings
+  std::vector<Watch> parked_;            // of two that rest; sorted
+  std::vector<Finding> findings_;        // beside the watches: seldom read while at rest
+  std::vector<int> free_;                // of the findings
+  std::vector<char> parted_;             // scratch, by watch
+  std::vector<int> watchedAt_, others_;  // of the watches: by a, where its own begin; and their b
   std::vector<std::pair<int, int>> fresh_;
-  std::vector<char> moved_;  // by item
+  std::vector<int> freshAt_;  // where these are
+  std::vector<char> moved_;   // by item
   std::vector<int> movedTree_;
   std::vector<Bounds> treeBounds_;
   struct Offers {  // of some that moved, by one thread

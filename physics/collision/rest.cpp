@@ -90,7 +90,9 @@ std::size_t Pairs::bytes() const {
                     bytesOf(planes_) + bytesOf(moving_) + bytesOf(late_) + bytesOf(treeIndex_) +
                     bytesOf(itemOfTree_) + bytesOf(ignored_) + bytesOf(fresh_) + bytesOf(parked_) +
                     bytesOf(watches_) + bytesOf(findings_) + bytesOf(free_) + bytesOf(moved_) +
-                    bytesOf(movedTree_) + bytesOf(treeBounds_) + bytesOf(offers_) + tree_.bytes();
+                    bytesOf(movedTree_) + bytesOf(treeBounds_) + bytesOf(parted_) +
+                    bytesOf(watchedAt_) + bytesOf(others_) + bytesOf(freshAt_) + bytesOf(offers_) +
+                    tree_.bytes();
   for (const Offers& offers : offers_) sum += bytesOf(offers.found) + bytesOf(offers.fresh);
   for (const Item& item : items_) {
     sum += bytesOf(item.solid.edges);
