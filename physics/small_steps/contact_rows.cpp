@@ -1,47 +1,11 @@
 // Contacts into the lanes that sweep over them, and back.
 #include <algorithm>
-#include <bit>
+#include <atomic>
 
 #include "physics/collision/feature.h"
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
-namespace {
-
-// Bits of a word; the last one is for what a body with more contacts has left.
-constexpr int kColours = 64;
-// Contacts are dealt to threads by parts of so many; of more parts, more lie between them.
-constexpr int kLeastOfPart = 2048, kMostLevels = 5;
-
-// The last colour of each group is the overflow: a block each.
-int laneStride(int list) { return list % kColours == kColours - 1 ? ContactBlock::kLanes : 1; }
-
-// Halvings of a batch with so many contacts.
-int levelsOf(int count) {
-  int levels = 0;
-  while (levels < kMostLevels && count >> (levels + 1) >= kLeastOfPart) ++levels;
-  return levels;
-}
-
-// Groups in the order in which they are swept, by nested dissection (George 1973): the parts, what
-// crosses from one to its neighbour, what crosses between these two and the next two, and so on to
-// the first cut; what responds; and by parts what meets that which does not move, and of that what
-// responds. Groups of a stage share no body that moves.
-struct GroupOrder {
-  int levels;
-  int parts() const { return 1 << levels; }
-  int stages() const { return levels + 4; }
-  int responding() const { return levels + 1; }  // the stage, as the next two
-  int fixed() const { return levels + 2; }
-  int respondingFixed() const { return levels + 3; }
-  int first(int stage) const {  // group
-    if (stage <= responding()) return 2 * parts() - (2 * parts() >> stage);
-    return stage == fixed() ? 2 * parts() : 3 * parts() + (stage - respondingFixed());
-  }
-  int count() const { return first(stages()); }
-};
-
-}  // namespace
 
 // Whether joints hold something behind one of the two.
 bool SmallSteps::Impl::isJointed(const KeptContact& c) const {
@@ -64,119 +28,6 @@ Softness SmallSteps::Impl::softnessOf(const Bodies& b, const KeptContact& c) con
   static const Softness jointed = softness(2 * kPeriods, kDamping);
   if (!(b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0)) return against;
   return isJointed(c) && !meetsResponse(c) ? jointed : between;
-}
-
-// What one contact moves: a body, or all of an articulation that responds.
-BodyId SmallSteps::Impl::leaderOf(BodyId i) const {
-  const int k = articulationOf[i];
-  return k >= 0 && responding[k] ? articulations[k].bodies().front() : i;
-}
-
-SmallSteps::Impl::Group SmallSteps::Impl::groupOf(const Bodies& b, const KeptContact& c,
-                                                  int levels) const {
-  const GroupOrder order{levels};
-  const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0,
-             responds = meetsResponse(c);
-  const auto partOf = [&](BodyId i) { return bisection.partOf(slotOf[i] - 1); };
-  if (!movesA || !movesB) {
-    if (responds) return {order.first(order.respondingFixed()), levels + 1};
-    return {order.first(order.fixed()) + partOf(movesA ? c.a : c.b), levels + 1};
-  }
-  if (responds) return {order.first(order.responding()), levels};
-  const int a = partOf(c.a), level = std::bit_width(static_cast<unsigned>(a ^ partOf(c.b)));
-  return {order.first(level) + (a >> level), level};
-}
-
-// Of a level, whose colours begin at `first`.
-int SmallSteps::Impl::colourOf(const Bodies& b, const KeptContact& c, std::size_t first) {
-  const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0;
-  std::uint64_t& ofA = colours[first + (movesA ? slotOf[leaderOf(c.a)] : 0)];
-  std::uint64_t& ofB = colours[first + (movesB ? slotOf[leaderOf(c.b)] : 0)];
-  const std::uint64_t taken = (movesA ? ofA : 0) | (movesB ? ofB : 0);
-  int colour = kColours - 1;
-  if (~taken != 0) colour = std::min(__builtin_ctzll(~taken), kColours - 1);
-  ofA |= std::uint64_t{1} << colour;
-  ofB |= std::uint64_t{1} << colour;
-  return colour;
-}
-
-// A slot to every body, where it meets anything; those of a part follow each other.
-void SmallSteps::Impl::takeSlots(const Model& w, Batch& batch, int levels) {
-  batch.slots.assign(1, kWorldBody);
-  batch.groups.assign(1, 0);
-  batch.stages.clear();
-  if (batch.contacts.empty()) return batch.blocks.clear();
-  batch.slots.insert(batch.slots.end(), batch.bodies.begin(), batch.bodies.end());
-  bisection.divide(w.bodies.pose, levels, std::span(batch.slots).subspan(1));
-  for (std::size_t s = 1; s < batch.slots.size(); ++s) slotOf[batch.slots[s]] = static_cast<int>(s);
-  colours.assign((levels + 2) * batch.slots.size(), 0);
-  batch.motions.assign(batch.slots.size(), LaneMotion{});
-  batch.masses.assign(batch.slots.size(), LaneMass{});
-  batch.inverses.resize(batch.slots.size());
-  batch.before.resize(batch.slots.size());
-}
-
-// Contacts of one colour share no body that moves. First those of two bodies that move, then those
-// with what does not, so that a sweep ends with nothing driven into a wall. A body with more
-// contacts than there are colours has the others one by one. Of a colour those that carried come
-// first, and of these those with most points: a block takes as long as its largest manifold, and
-// where none carries it has no friction.
-void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
-  constexpr int kLanes = ContactBlock::kLanes, kSorts = 2 * ContactBlock::kPoints;
-  const int count = static_cast<int>(batch.contacts.size());
-  const GroupOrder order{levelsOf(count)};
-  takeSlots(w, batch, order.levels);
-  if (batch.contacts.empty()) return;
-  takeResponses(batch);
-  placeOf.resize(batch.contacts.size());
-  firstOf.assign(static_cast<std::size_t>(order.count()) * kColours * kSorts, 0);
-  groupColours.assign(order.count(), 0);
-  for (int i = 0; i < count; ++i) {
-    const KeptContact& c = contacts[batch.contacts[i]];
-    const Group group = groupOf(w.bodies, c, order.levels);
-    const int colour = colourOf(w.bodies, c, group.level * batch.slots.size());
-    const int sort = (c.isLoaded() ? 1 : 2) * ContactBlock::kPoints - std::max(c.count, 1);
-    groupColours[group.place] |= std::uint64_t{1} << colour;
-    placeOf[i] = (group.place * kColours + colour) * kSorts + sort;
-    ++firstOf[placeOf[i]];
-  }
-  int lanes = 0;
-  for (int stage = 0; stage < order.stages(); ++stage) {
-    const int first = static_cast<int>(batch.groups.size()) - 1;
-    for (int group = order.first(stage); group < order.first(stage + 1); ++group) {
-      if (groupColours[group] == 0) continue;
-      for (std::uint64_t left = groupColours[group]; left != 0; left &= left - 1) {
-        const int list = group * kColours + std::countr_zero(left);
-        for (int k = list * kSorts; k < (list + 1) * kSorts; ++k) {
-          const int more = firstOf[k] * laneStride(list);
-          firstOf[k] = lanes;
-          lanes += more;
-        }
-        lanes = (lanes + kLanes - 1) / kLanes * kLanes;
-      }
-      batch.groups.push_back(lanes / kLanes);
-    }
-    const int end = static_cast<int>(batch.groups.size()) - 1;
-    const bool responds = stage == order.responding() || stage == order.respondingFixed();
-    if (end > first) batch.stages.push_back({first, end, responds});
-  }
-  batch.blocks.resize(lanes / kLanes);
-  for (ContactBlock& block : batch.blocks) {
-    std::fill(std::begin(block.contact), std::end(block.contact), -1);
-    block.points = 1;
-  }
-  for (int i = 0; i < count; ++i) {
-    int& place = firstOf[placeOf[i]];
-    ContactBlock& block = batch.blocks[place / kLanes];
-    block.contact[place % kLanes] = batch.contacts[i];
-    block.points = std::max(block.points, contacts[batch.contacts[i]].count);
-    place += laneStride(placeOf[i] / kSorts);
-  }
-  for (ContactBlock& block : batch.blocks) {
-    for (int l = 0; l < kLanes; ++l) {
-      if (block.contact[l] < 0) emptyLane(block, l);
-    }
-  }
 }
 
 namespace {
@@ -296,15 +147,19 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
     for (int s = std::max(from, 1); s < to; ++s) {
       batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
       batch.inverses[s] = inverseOf(batch.masses[s]);
-      startRows(batch.motions[s]);
+      batch.motions[s] = {};
     }
   });
   const FrictionAt friction = frictionAt(w, batch);
+  std::atomic<bool> someDeep = false;
   forEachGroup(w, batch, [&](int from, int to) {
-    for (int i = from; i < to; ++i) fill(w, batch, batch.blocks[i]);
-    contactKernels().prepare(&batch.blocks[from], to - from, batch.masses.data(), friction);
+    const std::span<ContactBlock> blocks(&batch.blocks[from], to - from);
+    for (ContactBlock& block : blocks) fill(w, batch, block);
+    contactKernels().prepare(blocks.data(), to - from, batch.masses.data(), friction);
+    if (isDeep(batch, blocks)) someDeep = true;
   });
-  noteDeep(batch);
+  batch.isDeep = someDeep;
+  if (batch.isDeep) noteDeep(batch);
 }
 
 // Multipliers from the lanes to the contacts that are kept.

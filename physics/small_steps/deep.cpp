@@ -23,22 +23,33 @@ void forEachOverlap(std::span<const ContactBlock> blocks, F&& f) {
 
 }  // namespace
 
+// Whether the push speed limits any of these.
+bool SmallSteps::Impl::isDeep(const Batch& batch, std::span<const ContactBlock> blocks) const {
+  bool some = false;
+  forEachDeep(batch, blocks, [&](const ContactBlock&, int, float) { some = true; });
+  return some;
+}
+
+template <class F>
+void SmallSteps::Impl::forEachDeep(const Batch& batch, std::span<const ContactBlock> blocks,
+                                   F&& f) const {
+  const auto isJointed = [&](int slot) { return articulationOf[batch.slots[slot]] >= 0; };
+  forEachOverlap(blocks, [&](const ContactBlock& block, int l, float depth) {
+    if (!(block.scale[l] * block.rate[l] * depth > block.push[l])) return;
+    if (!isJointed(block.bodyA[l]) && !isJointed(block.bodyB[l])) f(block, l, depth);
+  });
+}
+
 // The deepest of these at every body and at those around it that a substep's pushes reach. Were all
 // of them pushed alike, a crowd could balance with the one inside the other: around the deepest the
 // others are pushed in proportion to their depth, which is how springs unpack. Figures come apart
 // as their joints let them, in turns with these.
 void SmallSteps::Impl::noteDeep(Batch& batch) const {
-  batch.isDeep = false;
-  const auto isJointed = [&](int slot) { return articulationOf[batch.slots[slot]] >= 0; };
-  forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float depth) {
-    if (!(block.scale[l] * block.rate[l] * depth > block.push[l])) return;
-    if (isJointed(block.bodyA[l]) || isJointed(block.bodyB[l])) return;
-    batch.isDeep = true;
+  forEachDeep(batch, batch.blocks, [&](const ContactBlock& block, int l, float depth) {
     for (const int slot : {block.bodyA[l], block.bodyB[l]}) {
       if (slot > 0) batch.motions[slot].own = std::max(batch.motions[slot].own, depth);
     }
   });
-  if (!batch.isDeep) return;
   for (LaneMotion& motion : batch.motions) motion.deepest = motion.own;
   for (int ring = 0; ring < kPositionSweeps; ++ring) {
     forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float) {

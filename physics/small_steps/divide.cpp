@@ -6,6 +6,7 @@
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
+
 void SmallSteps::clear(Batch& batch) {
   batch.bodies.clear();
   batch.contacts.clear();
@@ -203,10 +204,15 @@ void SmallSteps::Impl::divide(Model& w) {
     }
     if (articulationOf[i] >= 0 || deformableOf[i] >= 0) held[root] = Held::kJoined;
   }
-  for (const KeptContact& c : contacts) {
-    const BodyId root = rootOf(w, c);
+  constexpr int kLeastContacts = 128;  // of a thread
+  forApproach.resize(contacts.size());
+  w.workers.forEachChunk(static_cast<int>(contacts.size()), kLeastContacts, [&](int from, int to) {
+    for (int k = from; k < to; ++k) forApproach[k] = substepsForApproach(w, contacts[k]);
+  });
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const BodyId root = rootOf(w, contacts[k]);
     held[root] = Held::kTouching;
-    want(root, substepsForApproach(w, c), SubstepLaw::kApproach);
+    want(root, forApproach[k], SubstepLaw::kApproach);
     substeps[root] = std::max(substeps[root], asked[root]);
   }
   for (const SoftPair& pair : softPairs) {

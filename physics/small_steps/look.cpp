@@ -1,5 +1,6 @@
 // The contacts of a step.
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <tuple>
 
@@ -19,19 +20,34 @@ std::span<const Found> findContacts(Model& w, std::span<const double> push = {})
 // and on with that to what it touches, as far as the pushes of a substep reach. Of less than half
 // of its thickness nothing is to be known: it stays on its own side of what it meets. False: there
 // is no more.
-bool SmallSteps::Impl::findPushes(const Model& w) {
+bool SmallSteps::Impl::findPushes(Model& w) {
   constexpr double kOwnSide = 0.5;
+  constexpr int kLeastContacts = 256;  // of a thread
   const Bodies& b = w.bodies;
   const double dt = w.settings.dt;
-  bool some = false, more = true;
+  const auto wayOf = [&](const KeptContact& c) {
+    return (dt * (b.velocity[c.b].v - b.velocity[c.a].v) + pushed[c.b] - pushed[c.a]).eval();
+  };
+  const auto leastOf = [&](const KeptContact& c) {
+    return kOwnSide * std::min(thickness[c.a], thickness[c.b]);
+  };
+  const auto goesFar = [&](const KeptContact& c) {
+    if (!isMovable(b, c.a) || !isMovable(b, c.b)) return false;
+    const double least = leastOf(c);
+    return wayOf(c).squaredNorm() >= least * least;
+  };
   std::fill(pushed.begin(), pushed.end(), Vec3::Zero());
+  std::atomic<bool> any = false;
+  w.workers.forEachChunk(static_cast<int>(contacts.size()), kLeastContacts, [&](int from, int to) {
+    if (std::any_of(contacts.begin() + from, contacts.begin() + to, goesFar)) any = true;
+  });
+  bool some = false, more = any;
   for (int k = 0; k < kPositionSweeps && more; ++k) {
     more = false;
     for (const KeptContact& c : contacts) {
-      if (!isMovable(b, c.a) || !isMovable(b, c.b)) continue;
-      const Vec3 way = dt * (b.velocity[c.b].v - b.velocity[c.a].v) + pushed[c.b] - pushed[c.a];
-      const double least = kOwnSide * std::min(thickness[c.a], thickness[c.b]);
-      if (way.squaredNorm() < least * least) continue;
+      if (!goesFar(c)) continue;
+      const Vec3 way = wayOf(c);
+      const double least = leastOf(c);
       const Vec3 n = normalOf(c, b.pose);
       const double closing = n.dot(way);
       if (!(closing > least)) continue;
@@ -50,13 +66,15 @@ bool SmallSteps::Impl::findPushes(const Model& w) {
 bool SmallSteps::Impl::lookOnce(Model& w) {
   Bodies& b = w.bodies;
   const double dt = w.settings.dt;
-  for (const BodyId i : b.active) {
-    w.ahead[i] = b.pose[i];
-    if (w.settings.gravity && b.motion[i] == Motion::kDynamic) {
-      w.ahead[i].x += dt * dt * *w.settings.gravity;
+  w.workers.forEachChunk(static_cast<int>(b.active.size()), kLeastBodies, [&](int from, int to) {
+    for (const BodyId i : std::span(b.active).subspan(from, to - from)) {
+      w.ahead[i] = b.pose[i];
+      if (w.settings.gravity && b.motion[i] == Motion::kDynamic) {
+        w.ahead[i].x += dt * dt * *w.settings.gravity;
+      }
+      displace(w.ahead[i], dt * b.velocity[i].v, dt * b.velocity[i].w);
     }
-    displace(w.ahead[i], dt * b.velocity[i].v, dt * b.velocity[i].w);
-  }
+  });
   if (!lookSoft(w)) return false;
   if (!w.touches) return true;
   const auto found = findContacts(w);

@@ -1,5 +1,6 @@
 // Rows of contacts anew where a body has turned so far that its arms and inertia are others.
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 
@@ -72,19 +73,17 @@ bool SmallSteps::Impl::turnsNormal(const ContactBlock& block, int l,
 // accuracy that is as far as a step may err, if it resolves the motion: what the rows of a tableau
 // have in common it does not see. Then normals between centres turn as well, and what is round has
 // no other.
-bool SmallSteps::Impl::findTurned(const Model& w, Batch& batch) const {
+bool SmallSteps::Impl::findTurned(Model& w, Batch& batch) const {
   const bool isAsked = stepsAccurately(w, batch) && !batch.isLost;
   const double far = isAsked ? std::min(kFar, allowedError(w)) : kFar;
-  bool some = false;
-  batch.turned.assign(batch.motions.size(), 0);
-  for (std::size_t s = 1; s < batch.motions.size(); ++s) {
+  std::atomic<bool> some = false;
+  batch.turned.resize(batch.motions.size());
+  forEachBody(w, batch, [&](BodyId i, int s) {
     const auto& turn = batch.motions[s].dturn;
     const Vec3 theta = rotationOf(batch.masses[s], Vec3(turn[0], turn[1], turn[2]));
-    if (theta.squaredNorm() <= far * far) continue;
-    if (isAsked && isRound(w.bodies, batch.slots[s])) continue;
-    batch.turned[s] = 1;
-    some = true;
-  }
+    batch.turned[s] = theta.squaredNorm() > far * far && !(isAsked && isRound(w.bodies, i));
+    if (batch.turned[s]) some = true;
+  });
   for (std::size_t i = 0; isAsked && i < batch.blocks.size(); ++i) {
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
       if (!turnsNormal(batch.blocks[i], l, batch.motions, far)) continue;

@@ -1,6 +1,7 @@
 // What the default method keeps and works with. Private to physics/small_steps: one file per part
 // of it.
 //   divide.cpp        articulations, islands, and the batches that they step in
+//   lay_out.cpp       which lanes contacts have
 //   contact_rows.cpp  contacts into the lanes that sweep over them, and back
 //   responses.cpp     contacts that see what joints make of what they give
 //   deep.cpp          overlaps that take more than a few substeps
@@ -132,6 +133,7 @@ struct SmallSteps::Batch {
   std::vector<char> turned;         // by slot: so far that its rows are to be prepared anew
   std::vector<int> partOf;          // by slot, where islands step by an accuracy: which of them
 
+  void layNothing();  // there are no contacts
   bool takesTurns() const { return joined == Joined::kTakesTurns; }
   // More than contacts of rigid bodies.
   bool isMixed() const { return !articulations.empty() || isSoft(); }
@@ -224,14 +226,18 @@ struct SmallSteps::Impl {
   std::size_t batchCount = 0;
   Islands islands;
   std::vector<int> batchOf, slotOf;    // by body
-  Bisection bisection;                 // of the batch that is laid out
-  std::vector<std::uint64_t> colours;  // the same, by level and slot: taken by contacts
-  std::vector<std::uint64_t> groupColours;  // and by group
+  Bisection bisection;                 // of the batch that is laid out, as what follows
+  struct Place {                       // of a contact; 0: it moves nothing there
+    int slotA = 0, slotB = 0, stage = 0, group = 0, colour = 0, sort = 0, points = 1;
+  };
+  std::vector<Place> places;
+  std::vector<int> inGroup, groupEnd;       // contacts of the batch, by group
+  std::vector<std::uint64_t> colours;       // by stage and slot: taken by contacts
+  std::vector<std::uint64_t> groupColours;  // by group
+  std::vector<int> firstOf;                 // by group, colour and sort: a lane
   std::vector<char> responding;        // by articulation: contacts see its mass
   std::vector<int> finer;          // by articulation: substeps that its joints ask for, 0: none
   std::vector<char> opened;        // of an island with joints, by its first body: they came apart
-  std::vector<int> placeOf;        // scratch, of a batch's contacts
-  std::vector<int> firstOf;        // the same: the first lane of a colour's, of a sort
   std::vector<Inertia> inertiaOf;  // by body, of this step
   std::vector<double> length;      // by body: of its substep [s], one for all of an island
   std::vector<JointMass> masses;
@@ -250,6 +256,7 @@ struct SmallSteps::Impl {
   std::vector<double> drawn, carried, weight;                   // the same
   std::vector<Displacement> predicted;  // by body: before joints and contacts
   std::vector<LaneNumbers> works;       // scratch, by block
+  std::vector<int> forApproach;         // the same, by contact: substeps
 
   void learn(Model& w);
   void learnAccurate(Model& w, const std::vector<std::vector<JointRef>>& rows);
@@ -301,18 +308,19 @@ struct SmallSteps::Impl {
   void makeRoom(std::size_t bodies);
   void look(Model& w);
   bool lookOnce(Model& w);
-  bool findPushes(const Model& w);
+  bool findPushes(Model& w);
   int leastOf(const Model& w, BodyId i) const;
   void divide(Model& w);
   int substepsForApproach(const Model& w, const KeptContact& c) const;
   void assign(Model& w);
   void assign(const Model& w, BodyId i);
   Batch& batchFor(const Model& w, BodyId root);
-  struct Group {  // of blocks: where it is in the order of all, and the level whose colours it takes
-    int place = 0, level = 0;
-  };
-  Group groupOf(const Bodies& b, const KeptContact& c, int levels) const;
-  int colourOf(const Bodies& b, const KeptContact& c, std::size_t first);
+  Place placeOf(const Bodies& b, const KeptContact& c, int levels) const;
+  static int colourOf(const Place& place, std::uint64_t* taken);
+  template <class F>
+  static void forEachPlanned(Model& w, int levels, F&& f);
+  void groupContacts(Model& w, const Batch& batch, int levels);
+  int countLanes(Batch& batch, int levels);
   BodyId leaderOf(BodyId i) const;
   bool meetsResponse(const KeptContact& c) const;
   void takeSlots(const Model& w, Batch& batch, int levels);
@@ -375,7 +383,7 @@ struct SmallSteps::Impl {
   void solveVelocities(Model& w, Batch& batch, double h);
   void sweepSoft(Batch& batch);
   void substep(Model& w, Batch& batch, double h, StepReport& report);
-  bool findTurned(const Model& w, Batch& batch) const;
+  bool findTurned(Model& w, Batch& batch) const;
   bool turnsNormal(const ContactBlock& block, int l, const std::vector<LaneMotion>& motions,
                    double far) const;
   FrictionAt frictionAt(const Model& w, const Batch& batch) const;
@@ -434,6 +442,9 @@ struct SmallSteps::Impl {
   Softness softnessOf(const Bodies& b, const KeptContact& c) const;
   void fill(const Model& w, const Batch& batch, ContactBlock& block) const;
   void rows(Model& w, Batch& batch);
+  bool isDeep(const Batch& batch, std::span<const ContactBlock> blocks) const;
+  template <class F>
+  void forEachDeep(const Batch& batch, std::span<const ContactBlock> blocks, F&& f) const;
   void noteDeep(Batch& batch) const;
   std::vector<SoftPair> softPairs;
   std::vector<SoftContact> gathered;  // scratch, and its order
