@@ -15,10 +15,10 @@ void Bisection::divide(std::span<const Pose> pose, int levels, std::span<BodyId>
 
 void Bisection::divide(std::size_t from, std::size_t to, int levels, int part) {
   const auto at = [&](std::size_t k) { return places_.begin() + static_cast<std::ptrdiff_t>(k); };
-  if (levels == 0) {
+  if (levels == 0 || to - from < 2) {
     const auto byBody = [](const Place& a, const Place& b) { return a.body < b.body; };
     std::sort(at(from), at(to), byBody);
-    std::fill_n(parts_.begin() + static_cast<std::ptrdiff_t>(from), to - from, part);
+    std::fill_n(parts_.begin() + static_cast<std::ptrdiff_t>(from), to - from, part << levels);
     return;
   }
   Vec3 low = places_[from].x, high = low;
