@@ -88,11 +88,10 @@ bool SmallSteps::Impl::lookOnce(Model& w) {
       return false;
     }
   }
-  std::swap(contacts, before);
-  keep(before, found, b, w.workers, contacts);
+  memory.keep(found, b, w.workers, contacts);
   if (!findPushes(w)) return true;
-  std::swap(contacts, before);
-  keep(before, findContacts(w, push), b, w.workers, contacts);
+  memory.undo(contacts);
+  memory.keep(findContacts(w, push), b, w.workers, contacts);
   return true;
 }
 

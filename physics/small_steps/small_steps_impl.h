@@ -181,7 +181,8 @@ bool isLoad(const Model& w, const C& item) {
 void add(const AccuracyReport& of, AccuracyReport& to);
 
 struct SmallSteps::Impl {
-  std::vector<KeptContact> contacts, before;
+  std::vector<KeptContact> contacts;
+  ContactMemory memory;
   std::vector<Articulation> articulations;
   JointTopologies topologies;
   std::vector<Deformable> deformables;

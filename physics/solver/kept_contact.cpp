@@ -2,7 +2,9 @@
 #include "physics/solver/kept_contact.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <utility>
 
 #include "physics/constraints/friction.h"
 
@@ -63,11 +65,23 @@ void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
   fresh.twist = fresh.step = 0;
 }
 
-}  // namespace
+constexpr int kLeastContacts = 32;  // of a thread
 
-void keep(std::span<const KeptContact> previous, std::span<const Found> found, const Bodies& bodies,
-          Workers& workers, std::vector<KeptContact>& now) {
-  constexpr int kLeastContacts = 32;  // of a thread
+// Whether each is of the pair that it was of.
+bool areSame(std::span<const KeptContact> contacts, std::span<const Found> found,
+             Workers& workers) {
+  if (contacts.size() != found.size()) return false;
+  std::atomic<bool> same = true;
+  workers.forEachChunk(static_cast<int>(found.size()), kLeastContacts, [&](int from, int to) {
+    int i = from;
+    while (i < to && contacts[i].key == found[i].manifold->pair) ++i;
+    if (i < to) same = false;
+  });
+  return same;
+}
+
+void keepAll(std::span<const KeptContact> previous, std::span<const Found> found,
+             const Bodies& bodies, Workers& workers, std::vector<KeptContact>& now) {
   const auto isBefore = [](const KeptContact& c, std::uint64_t key) { return c.key < key; };
   now.resize(found.size());
   workers.forEachChunk(static_cast<int>(found.size()), kLeastContacts, [&](int from, int to) {
@@ -85,6 +99,37 @@ void keep(std::span<const KeptContact> previous, std::span<const Found> found, c
       if (goesOn) match(*old, now[i]);
     }
   });
+}
+
+}  // namespace
+
+void ContactMemory::keep(std::span<const Found> found, const Bodies& bodies, Workers& workers,
+                         std::vector<KeptContact>& contacts) {
+  isSame_ = areSame(contacts, found, workers);
+  if (!isSame_) {
+    std::swap(contacts, before_);
+    return keepAll(before_, found, bodies, workers, contacts);
+  }
+  before_.clear();
+  before_.reserve(found.size());
+  places_.clear();
+  places_.reserve(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (!found[i].isNew && contacts[i].carried) continue;
+    before_.push_back(contacts[i]);
+    places_.push_back(static_cast<int>(i));
+    take(*found[i].manifold, bodies, contacts[i]);
+    match(before_.back(), contacts[i]);
+  }
+}
+
+void ContactMemory::undo(std::vector<KeptContact>& contacts) {
+  if (!isSame_) return std::swap(contacts, before_);
+  for (std::size_t k = 0; k < places_.size(); ++k) contacts[places_[k]] = before_[k];
+}
+
+std::size_t ContactMemory::bytes() const {
+  return before_.capacity() * sizeof(KeptContact) + places_.capacity() * sizeof(int);
 }
 
 Vec3 normalOf(const KeptContact& contact, std::span<const Pose> pose) {

@@ -54,7 +54,8 @@ void findContactsHere(WorldState& w) {
   if (w.touches) {
     const auto found = w.collider.find(pose, pose, margin);
     if (takesSmallSteps(w)) {
-      keep({}, w.collider.found(), w.bodies, w.workers, w.small.contacts());
+      w.small.contacts().clear();
+      ContactMemory().keep(w.collider.found(), w.bodies, w.workers, w.small.contacts());
     } else {
       update(w.contacts, found, w.bodies);
     }
