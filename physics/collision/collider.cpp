@@ -266,14 +266,22 @@ std::span<const Found> Collider::look(std::span<const Pose> start, std::span<con
   impl_->step = {start, end, margin};
   profileScope("narrow_phase");
   const auto lookAt = [&](int from, int to) {
-    if (changes && from == 0) pairs.updateTree();
+    if (changes && from == 0) {
+      profileScope("broad_phase");
+      pairs.updateTree();
+      profileScope("narrow_phase");
+    }
     impl_->lookAt(from, to);
   };
   if (pairs.watches().empty()) lookAt(0, 0);
   workers.forEachChunk(static_cast<int>(pairs.watches().size()), kLeastPairs, lookAt);
-  profileScope("broad_phase");
   if (changes) {
-    for (const int k : pairs.findNew(workers)) impl_->look(pairs.watches()[k]);
+    profileScope("broad_phase");
+    const auto fresh = pairs.findNew(workers);
+    profileScope("narrow_phase");
+    workers.forEachChunk(static_cast<int>(fresh.size()), kLeastPairs, [&](int from, int to) {
+      for (int k = from; k < to; ++k) impl_->look(pairs.watches()[fresh[k]]);
+    });
   }
   impl_->gather();
   profileScope("contact");

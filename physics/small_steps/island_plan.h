@@ -19,9 +19,9 @@ enum class SubstepLaw : char { kLeast, kSag, kOverlap, kStrain, kTurn, kPull, kA
 struct IslandPlan {
   BodyId first = 0;  // of its bodies
   int bodies = 0;
-  bool flies = false;            // nothing holds it: one body, exactly, in one go
-  int trees = 0, loops = 0;      // of joints, limits, forces: each solved at once
-  int joints = 0;                // constraints in those
+  bool flies = false;        // nothing holds it: one body, exactly, in one go
+  int trees = 0, loops = 0;  // of joints, limits, forces: each solved at once
+  int joints = 0;            // constraints in those
   // Of points: solved at once; their links at once and the rest swept; swept.
   int ropes = 0, cloths = 0, meshes = 0;
   int links = 0;                 // constraints in those

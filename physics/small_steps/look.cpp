@@ -88,10 +88,8 @@ bool SmallSteps::Impl::lookOnce(Model& w) {
       return false;
     }
   }
-  memory.keep(found, b, w.workers, contacts);
-  if (!findPushes(w)) return true;
-  memory.undo(contacts);
-  memory.keep(findContacts(w, push), b, w.workers, contacts);
+  keep(found, b, w.workers, contacts, before);
+  if (findPushes(w)) keep(findContacts(w, push), b, w.workers, contacts, before);
   return true;
 }
 

@@ -33,7 +33,7 @@ void SmallSteps::forget() {
 }
 
 std::size_t SmallSteps::bytes() const {
-  std::size_t sum = impl_->contacts.capacity() * sizeof(KeptContact) + impl_->memory.bytes();
+  std::size_t sum = (impl_->contacts.capacity() + impl_->before.capacity()) * sizeof(KeptContact);
   for (const Batch& batch : impl_->batches) {
     sum += batch.blocks.capacity() * sizeof(ContactBlock) +
            batch.motions.capacity() * sizeof(LaneMotion);

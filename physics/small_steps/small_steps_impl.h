@@ -181,8 +181,7 @@ bool isLoad(const Model& w, const C& item) {
 void add(const AccuracyReport& of, AccuracyReport& to);
 
 struct SmallSteps::Impl {
-  std::vector<KeptContact> contacts;
-  ContactMemory memory;
+  std::vector<KeptContact> contacts, before;  // before: scratch
   std::vector<Articulation> articulations;
   JointTopologies topologies;
   std::vector<Deformable> deformables;
@@ -226,9 +225,9 @@ struct SmallSteps::Impl {
   std::vector<Batch> batches;
   std::size_t batchCount = 0;
   Islands islands;
-  std::vector<int> batchOf, slotOf;    // by body
-  Bisection bisection;                 // of the batch that is laid out, as what follows
-  struct Place {                       // of a contact; 0: it moves nothing there
+  std::vector<int> batchOf, slotOf;  // by body
+  Bisection bisection;               // of the batch that is laid out, as what follows
+  struct Place {                     // of a contact; 0: it moves nothing there
     int slotA = 0, slotB = 0, stage = 0, group = 0, colour = 0, sort = 0, points = 1;
   };
   std::vector<Place> places;
@@ -236,7 +235,7 @@ struct SmallSteps::Impl {
   std::vector<std::uint64_t> colours;       // by stage and slot: taken by contacts
   std::vector<std::uint64_t> groupColours;  // by group
   std::vector<int> firstOf;                 // by group, colour and sort: a lane
-  std::vector<char> responding;        // by articulation: contacts see its mass
+  std::vector<char> responding;             // by articulation: contacts see its mass
   std::vector<int> finer;          // by articulation: substeps that its joints ask for, 0: none
   std::vector<char> opened;        // of an island with joints, by its first body: they came apart
   std::vector<Inertia> inertiaOf;  // by body, of this step
@@ -532,9 +531,8 @@ void SmallSteps::Impl::sweep(Model& w, Batch& batch, std::initializer_list<Conta
         }
       }
     } else {
-      forEachGroup(w, batch, stage, [&](int from, int to) {
-        kernel(blocks + from, to - from, ContactRows::kAll);
-      });
+      forEachGroup(w, batch, stage,
+                   [&](int from, int to) { kernel(blocks + from, to - from, ContactRows::kAll); });
     }
   }
 }

@@ -103,33 +103,19 @@ void keepAll(std::span<const KeptContact> previous, std::span<const Found> found
 
 }  // namespace
 
-void ContactMemory::keep(std::span<const Found> found, const Bodies& bodies, Workers& workers,
-                         std::vector<KeptContact>& contacts) {
-  isSame_ = areSame(contacts, found, workers);
-  if (!isSame_) {
-    std::swap(contacts, before_);
-    return keepAll(before_, found, bodies, workers, contacts);
+// Where no pair came or went the others stay where they are.
+void keep(std::span<const Found> found, const Bodies& bodies, Workers& workers,
+          std::vector<KeptContact>& contacts, std::vector<KeptContact>& before) {
+  if (!areSame(contacts, found, workers)) {
+    std::swap(contacts, before);
+    return keepAll(before, found, bodies, workers, contacts);
   }
-  before_.clear();
-  before_.reserve(found.size());
-  places_.clear();
-  places_.reserve(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (!found[i].isNew && contacts[i].carried) continue;
-    before_.push_back(contacts[i]);
-    places_.push_back(static_cast<int>(i));
+    const KeptContact old = contacts[i];
     take(*found[i].manifold, bodies, contacts[i]);
-    match(before_.back(), contacts[i]);
+    match(old, contacts[i]);
   }
-}
-
-void ContactMemory::undo(std::vector<KeptContact>& contacts) {
-  if (!isSame_) return std::swap(contacts, before_);
-  for (std::size_t k = 0; k < places_.size(); ++k) contacts[places_[k]] = before_[k];
-}
-
-std::size_t ContactMemory::bytes() const {
-  return before_.capacity() * sizeof(KeptContact) + places_.capacity() * sizeof(int);
 }
 
 Vec3 normalOf(const KeptContact& contact, std::span<const Pose> pose) {

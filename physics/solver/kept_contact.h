@@ -34,21 +34,10 @@ struct KeptContact {
   bool isHeld() const { return held != std::array<double, Manifold::kMaxPoints>{}; }
 };
 
-// Contacts from look to look, sorted by their key.
-class ContactMemory {
- public:
-  // `contacts` are what the collider found, with the multipliers of the points that go on.
-  void keep(std::span<const Found> found, const Bodies& bodies, Workers& workers,
-            std::vector<KeptContact>& contacts);
-  // They are those of before that again.
-  void undo(std::vector<KeptContact>& contacts);
-  std::size_t bytes() const;
-
- private:
-  std::vector<KeptContact> before_;  // all; or where no pair came or went, what was replaced
-  std::vector<int> places_;          // of those
-  bool isSame_ = false;              // none did
-};
+// `contacts` become what the collider found, with the multipliers of the points that go on. Both
+// are sorted by their key. `before` is scratch.
+void keep(std::span<const Found> found, const Bodies& bodies, Workers& workers,
+          std::vector<KeptContact>& contacts, std::vector<KeptContact>& before);
 
 // The same as the sweeps' pair, for reports: multipliers belong to a substep of `step`.
 ContactPair pairOf(const KeptContact& contact, double step);

@@ -55,7 +55,8 @@ void findContactsHere(WorldState& w) {
     const auto found = w.collider.find(pose, pose, margin);
     if (takesSmallSteps(w)) {
       w.small.contacts().clear();
-      ContactMemory().keep(w.collider.found(), w.bodies, w.workers, w.small.contacts());
+      std::vector<KeptContact> none;
+      keep(w.collider.found(), w.bodies, w.workers, w.small.contacts(), none);
     } else {
       update(w.contacts, found, w.bodies);
     }
