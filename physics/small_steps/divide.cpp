@@ -204,7 +204,6 @@ void SmallSteps::Impl::divide(Model& w) {
     }
     if (articulationOf[i] >= 0 || deformableOf[i] >= 0) held[root] = Held::kJoined;
   }
-  constexpr int kLeastContacts = 128;  // of a thread
   forApproach.resize(contacts.size());
   w.workers.forEachChunk(static_cast<int>(contacts.size()), kLeastContacts, [&](int from, int to) {
     for (int k = from; k < to; ++k) forApproach[k] = substepsForApproach(w, contacts[k]);

@@ -120,7 +120,6 @@ void SmallSteps::Impl::forEachPlanned(Model& w, int levels, F&& f) {
 
 // Contacts by group, in their order.
 void SmallSteps::Impl::groupContacts(Model& w, const Batch& batch, int levels) {
-  constexpr int kLeastContacts = 128;  // of a thread
   const int count = static_cast<int>(batch.contacts.size());
   places.resize(batch.contacts.size());
   w.workers.forEachChunk(count, kLeastContacts, [&](int from, int to) {

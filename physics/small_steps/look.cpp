@@ -22,7 +22,6 @@ std::span<const Found> findContacts(Model& w, std::span<const double> push = {})
 // is no more.
 bool SmallSteps::Impl::findPushes(Model& w) {
   constexpr double kOwnSide = 0.5;
-  constexpr int kLeastContacts = 256;  // of a thread
   const Bodies& b = w.bodies;
   const double dt = w.settings.dt;
   const auto wayOf = [&](const KeptContact& c) {

@@ -65,7 +65,7 @@ struct KeptStart {
 };
 
 // What pays for being dealt to threads.
-constexpr int kLeastBodies = 64, kLeastBlocks = 32;
+constexpr int kLeastBodies = 64, kLeastContacts = 128, kLeastBlocks = 32;
 
 // Substeps at the least, where settings say nothing. Contacts that take no turns with joints are
 // swept once in each, and ropes and meshes are not done after one either; joints are solved in

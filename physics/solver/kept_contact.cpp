@@ -110,12 +110,14 @@ void keep(std::span<const Found> found, const Bodies& bodies, Workers& workers,
     std::swap(contacts, before);
     return keepAll(before, found, bodies, workers, contacts);
   }
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (!found[i].isNew && contacts[i].carried) continue;
-    const KeptContact old = contacts[i];
-    take(*found[i].manifold, bodies, contacts[i]);
-    match(old, contacts[i]);
-  }
+  workers.forEachChunk(static_cast<int>(found.size()), kLeastContacts, [&](int from, int to) {
+    for (int i = from; i < to; ++i) {
+      if (!found[i].isNew && contacts[i].carried) continue;
+      const KeptContact old = contacts[i];
+      take(*found[i].manifold, bodies, contacts[i]);
+      match(old, contacts[i]);
+    }
+  });
 }
 
 Vec3 normalOf(const KeptContact& contact, std::span<const Pose> pose) {

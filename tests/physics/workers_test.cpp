@@ -30,10 +30,16 @@ TEST(Workers, AreOneAtLeast) {
   EXPECT_THROW(workers.setCount(0), std::invalid_argument);
 }
 
-// Boxes close to each other, enough for their contacts to be dealt by parts, with pairs that a
-// joint holds.
-std::uint64_t hashOfHeap(int threads, bool jointed) {
-  constexpr std::size_t kLeastContacts = 8192;  // of four points: four parts
+// Boxes close to each other, with pairs that a joint holds: few, and enough for their contacts to
+// be dealt by parts.
+struct Heap {
+  int layers, steps;
+  std::size_t leastPoints;
+};
+constexpr Heap kFew = {6, 100, 0};
+constexpr Heap kMany = {34, 20, std::size_t{4} * 8192};  // contacts of four points, in four parts
+
+std::uint64_t hashOf(const Heap& heap, int threads, bool jointed) {
   Settings settings;
   settings.gravity = Vec3(0, -9.81, 0);
   settings.contact = ContactSettings{};
@@ -41,7 +47,7 @@ std::uint64_t hashOfHeap(int threads, bool jointed) {
   world.setThreads(threads);
   addGround(world);
   BodyId last = kWorldBody;
-  for (int k = 0; k < 10 * 10 * 34; ++k) {
+  for (int k = 0; k < 10 * 10 * heap.layers; ++k) {
     const Vec3 x(1.01 * (k % 10) + 0.003 * (k % 7), 0.5 + 1.01 * (k / 100), 1.01 * (k / 10 % 10));
     const BodyId body = addBody(world, Box{Vec3(1, 0.9 + 0.02 * (k % 5), 1)}, x, 1 + k % 3);
     if (jointed && k % 10 % 2 == 1) {
@@ -52,8 +58,8 @@ std::uint64_t hashOfHeap(int threads, bool jointed) {
     }
     last = body;
   }
-  run(world, 20);
-  EXPECT_GE(world.contacts().size(), 4 * kLeastContacts);
+  run(world, heap.steps);
+  EXPECT_GE(world.contacts().size(), heap.leastPoints);
   return stateHash(world);
 }
 
@@ -61,9 +67,11 @@ class Threads : public ::testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Jointed, Threads, ::testing::Bool());
 
 TEST_P(Threads, GiveTheSameBytesWhateverTheirNumber) {
-  const std::uint64_t one = hashOfHeap(1, GetParam());
-  EXPECT_EQ(hashOfHeap(2, GetParam()), one);
-  EXPECT_EQ(hashOfHeap(3, GetParam()), one);
+  for (const Heap& heap : {kFew, kMany}) {
+    const std::uint64_t one = hashOf(heap, 1, GetParam());
+    EXPECT_EQ(hashOf(heap, 2, GetParam()), one);
+    EXPECT_EQ(hashOf(heap, 3, GetParam()), one);
+  }
 }
 
 }  // namespace
