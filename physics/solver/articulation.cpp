@@ -52,8 +52,10 @@ void Articulation::archive(Archive& a) {
 
 template <class F>
 void JointPacks::forEach(F&& f) {
-  for (std::size_t k = 0; k < oneCount_; ++k) f(ones_[k]);
-  for (std::size_t k = 0; k < fourCount_; ++k) f(fours_[k]);
+  const auto ofWidth = [&](auto& packs) {
+    for (std::size_t k = 0; k < packs.count; ++k) f(packs.of[k]);
+  };
+  std::apply([&](auto&... packs) { (ofWidth(packs), ...); }, packs_);
 }
 
 void JointPacks::take(std::span<Articulation> articulations, std::span<const int> which) {
@@ -63,26 +65,28 @@ void JointPacks::take(std::span<Articulation> articulations, std::span<const int
     if (topology >= byTopology_.size()) byTopology_.resize(topology + 1);
     byTopology_[topology].push_back(&articulations[k]);
   }
-  const auto add = [&](auto& packs, std::size_t& count, std::span<Articulation* const> of) {
-    if (count == packs.size()) packs.emplace_back();
-    packs[count++].take(of);
+  const auto add = [](auto& packs, std::span<Articulation* const> of) {
+    if (packs.count == packs.of.size()) packs.of.emplace_back();
+    packs.of[packs.count++].take(of);
   };
-  oneCount_ = fourCount_ = 0;
+  std::apply([](auto&... packs) { ((packs.count = 0), ...); }, packs_);
+  const std::size_t most = mostJointLanes();
   for (const auto& list : byTopology_) {
-    for (std::size_t k = 0; k < list.size(); k += 4) {
-      const std::span of = std::span(list).subspan(k, std::min<std::size_t>(4, list.size() - k));
+    for (std::size_t k = 0; k < list.size(); k += most) {
+      const std::span of = std::span(list).subspan(k, std::min(most, list.size() - k));
       if (of.size() == 1) {
-        add(ones_, oneCount_, of);
+        add(std::get<0>(packs_), of);
+      } else if (of.size() <= 4) {
+        add(std::get<1>(packs_), of);
       } else {
-        add(fours_, fourCount_, of);
+        add(std::get<2>(packs_), of);
       }
     }
   }
 }
 
-void JointPacks::stiffen(std::span<Mat3> stiffness) const {
-  for (std::size_t k = 0; k < oneCount_; ++k) ones_[k].stiffen(stiffness);
-  for (std::size_t k = 0; k < fourCount_; ++k) fours_[k].stiffen(stiffness);
+void JointPacks::stiffen(std::span<Mat3> stiffness) {
+  forEach([&](auto& pack) { pack.stiffen(stiffness); });
 }
 
 void JointPacks::leave(const JointStage& stage, double most) {
@@ -93,10 +97,9 @@ void JointPacks::seeStart(const JointStage& stage) {
   forEach([&](auto& pack) { pack.seeStart(stage); });
 }
 
-bool JointPacks::findApart(std::span<double> marks) const {
+bool JointPacks::findApart(std::span<double> marks) {
   bool any = false;
-  for (std::size_t k = 0; k < oneCount_; ++k) any = ones_[k].findApart(marks) || any;
-  for (std::size_t k = 0; k < fourCount_; ++k) any = fours_[k].findApart(marks) || any;
+  forEach([&](auto& pack) { any = pack.findApart(marks) || any; });
   return any;
 }
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "physics/solver/joint_topology.h"
@@ -196,9 +197,9 @@ class JointPack {
   std::array<bool, W> stale_{};  // the factor is of other free rows
   bool seenSince_ = true;        // J is not that of the factor any more
   std::array<bool, W> exact_{};  // the factor is that of the velocity stage
-  std::vector<JointFactor<W>> keptFactors_;
+  std::vector<JointFactor<W>> factors_, keptFactors_;
+  std::vector<JointFactored<W>> factored_, keptFactored_;
   std::vector<Num<W>> keptTail_, keptScaled_;
-  std::vector<std::array<Num<W>, 4>> keptTurns_;
   struct {  // where the last step of Newton's began, by row and body, and what it was off by
     std::vector<std::array<Num<W>, 3>> lambda, u, theta;
     std::array<double, W> off{};
@@ -209,14 +210,14 @@ class JointPack {
 class JointPacks {
  public:
   void take(std::span<Articulation> articulations, std::span<const int> which);
-  void stiffen(std::span<Mat3> stiffness) const;  // adds what joints pull with, by BodyId
+  void stiffen(std::span<Mat3> stiffness);  // adds what joints pull with, by BodyId
   // Before the substep, where errors are taken back by at most so much [m, rad].
   void leave(const JointStage& stage, double most);
   // Joints that are apart where a step begins, or that Newton's steps have not closed: what brings
   // them together is no motion, and bodies go on from what was `predicted` before, and what forces
   // gave them. Marks by BodyId which these are; true: there are some.
   void seeStart(const JointStage& stage);
-  bool findApart(std::span<double> marks) const;
+  bool findApart(std::span<double> marks);
   void forgetClosing(const JointStage& stage, std::span<const Displacement> predicted);
   // Begins a substep: evaluates the rows where the bodies are. Then, as often as they were given
   // something since, solves for positions by these rows.
@@ -244,9 +245,12 @@ class JointPacks {
  private:
   template <class F>
   void forEach(F&& f);
-  std::vector<JointPack<1>> ones_;
-  std::vector<JointPack<4>> fours_;
-  std::size_t oneCount_ = 0, fourCount_ = 0;
+  template <int W>
+  struct Packs {
+    std::vector<JointPack<W>> of;
+    std::size_t count = 0;  // of those in use
+  };
+  std::tuple<Packs<1>, Packs<4>, Packs<8>> packs_;
   std::vector<std::vector<Articulation*>> byTopology_;
 };
 

@@ -24,8 +24,13 @@ struct JointBody {
   Num<W> u[3], theta[3];          // what it moves by in this substep
   Num<W> seenU[3], seenTheta[3];  // and did where its rows were evaluated
   Num<W> inverseMass, inertia[6];
-  Num<W> factorTheta[3], factorVolume;  // of the factor: theta, and the determinant of `inertia`
-  Num<W> back[3], backQ[4];             // the turn that arms are taken back by, and q then
+  Num<W> back[3], backQ[4];  // the turn that arms are taken back by, and q then
+};
+
+// Of a body where the factor was made: `theta`, and the determinant of `inertia`.
+template <int W>
+struct JointFactored {
+  Num<W> theta[3], volume;
 };
 
 // What factorizing leaves of a row: M^-1 J^T by bodies and rows, epsilon A, A_ii and the inverse of
@@ -44,7 +49,6 @@ struct JointLanes {
   Num<W> linear[2][9], angular[2][9], arm[2][3];
   Num<W> fixed[kJointFixed];  // of what the kernels evaluate: see JointSeen
   Num<W> alpha[6], regularisation, low, high, longest;
-  JointFactor<W> factor;
 };
 
 // What articulations of equal topology share. Rows are in the order of elimination and 1 or 3 high;
@@ -100,7 +104,9 @@ template <int W>
 struct JointView {
   JointBody<W>* bodies;
   JointLanes<W>* rows;
-  Num<W>*entries, *scaled;  // of blocks, by rows: A_ki below the diagonal, and L_ki
+  JointFactor<W>* factors;     // of the rows
+  JointFactored<W>* factored;  // of the bodies
+  Num<W>*entries, *scaled;     // of blocks, by rows: A_ki below the diagonal, and L_ki
   int bodyCount, rowCount, tailStart;
   const JointShape* shapes;
   const JointColumn* columns;
@@ -113,6 +119,16 @@ struct JointView {
   JointTail<W> tail;
 };
 
+// A factor that some lanes keep: where `stale` is 0.
+template <int W>
+struct JointKept {
+  const JointFactor<W>* factors;
+  const JointFactored<W>* factored;
+  const Num<W>*scaled, *tail;
+  int scaledCount, tailCount;
+  Num<W> stale;
+};
+
 template <int W>
 struct JointKernels {
   using System = JointView<W>;
@@ -123,6 +139,7 @@ struct JointKernels {
   void (*seeLimits)(const System&, bool all);
   void (*chooseLimits)(const System&);  // free where lambda = 0 is no solution
   void (*factorize)(const System&);
+  void (*restore)(const System&, const JointKept<W>&);
   void (*findChanged)(const System&, bool (&changed)[W]);  // too much for the factor to serve
   void (*respond)(const System&);                          // M^-1 J^T alone
   void (*aimAtErrors)(const System&);  // right = -(c - left + J (u - seen) + alpha lambda)
@@ -143,6 +160,9 @@ template <int W>
 const JointKernels<W>& jointKernels();
 extern const JointKernels<1> kJointKernelsSse2Of1, kJointKernelsAvx2Of1;
 extern const JointKernels<4> kJointKernelsSse2Of4, kJointKernelsAvx2Of4;
+extern const JointKernels<8> kJointKernelsAvx512Of8;
+// How many articulations may lie side by side here: 8 where the processor has AVX-512, else 4.
+int mostJointLanes();
 
 // q = exp(theta) q of a turn that is too far for a few terms of the series.
 void turnFar(const double (&theta)[3], double (&q)[4]);

@@ -16,6 +16,16 @@ const JointKernels<4>& jointKernels<4>() {
   return wide ? kJointKernelsAvx2Of4 : kJointKernelsSse2Of4;
 }
 
+template <>
+const JointKernels<8>& jointKernels<8>() {
+  return kJointKernelsAvx512Of8;
+}
+
+int mostJointLanes() {
+  static const bool widest = __builtin_cpu_supports("avx512f");
+  return widest ? 8 : 4;
+}
+
 void turnFar(const double (&theta)[3], double (&q)[4]) {
   const Quat turn = exponential({theta[0], theta[1], theta[2]});
   q[0] = turn.w(), q[1] = turn.x(), q[2] = turn.y(), q[3] = turn.z();

@@ -16,12 +16,12 @@ constexpr double kKeptTurn = 0.1, kKeptMass = 0.2;
 
 // M^-1 J^T of the angular part, a column for each row of J.
 template <class N>
-void respond(const JointShape& shape, JointLanes<N::kWidth>& row, int b,
-             const JointBody<N::kWidth>& body) {
+void respond(const JointShape& shape, const JointLanes<N::kWidth>& row, int b,
+             const JointBody<N::kWidth>& body, JointFactor<N::kWidth>& factor) {
   const N xx = load(body.inertia[0]), yy = load(body.inertia[1]), zz = load(body.inertia[2]);
   const N xy = load(body.inertia[3]), xz = load(body.inertia[4]), yz = load(body.inertia[5]);
   const Triple<N> x = {xx, xy, xz}, y = {xy, yy, yz}, z = {xz, yz, zz};
-  auto* to = row.factor.response[b];
+  auto* to = factor.response[b];
   if (shape.isGap) {
     const Triple<N> a = load3<N>(row.angular[b]);
     store3(to, z * a.y - y * a.z);
@@ -40,7 +40,7 @@ double signOf(int place) { return place == 0 ? 1 : -1; }
 // J_k M^-1 J_l^T of the body that is the p-th of the gap k and the q-th of the gap l.
 template <class N>
 void coupleGaps(const Of<N>& s, int k, int p, int l, int q, N (&sum)[9]) {
-  const auto* response = s.rows[l].factor.response[q];
+  const auto* response = s.factors[l].response[q];
   const N m = all<N>(signOf(p) * signOf(q)) * load(s.bodies[s.shapes[l].body[q]].inverseMass);
   const Triple<N> a = load3<N>(s.rows[k].angular[p]);
   const Triple<N> x = cross(a, load3<N>(response)), y = cross(a, load3<N>(response + 3)),
@@ -86,7 +86,7 @@ void couple(const Of<N>& s, int k, int p, int l, int q, N (&sum)[9]) {
   }
   if (!later.hasAngular || !earlier.hasAngular) return;
   for (int c = 0; c < C && c < earlier.rows; ++c) {
-    const Triple<N> response = load3<N>(rowL.factor.response[q] + 3 * c);
+    const Triple<N> response = load3<N>(s.factors[l].response[q] + 3 * c);
     if (R == 3 && later.isGap) {
       const Triple<N> moved = cross(load3<N>(rowK.angular[p]), response);
       sum[c] = sum[c] + moved.x;
@@ -107,7 +107,7 @@ template <int R, class N>
 void coupleSelf(const Of<N>& s, int i, int b, N (&sum)[6]) {
   const JointShape& shape = s.shapes[i];
   const auto& row = s.rows[i];
-  const auto* response = row.factor.response[b];
+  const auto* response = s.factors[i].response[b];
   const N m = load(s.bodies[shape.body[b]].inverseMass);
   if (R == 3 && shape.isGap) {
     const Triple<N> a = load3<N>(row.angular[b]), x = load3<N>(response),
@@ -137,27 +137,27 @@ void coupleSelf(const Of<N>& s, int i, int b, N (&sum)[6]) {
 template <int R, class N>
 void buildDiagonal(const Of<N>& s, int i) {
   const JointShape& shape = s.shapes[i];
-  auto& row = s.rows[i];
+  const auto& row = s.rows[i];
+  auto& factor = s.factors[i];
   N a[6];
   for (N& entry : a) entry = all<N>(0);
   for (int b = 0; b < shape.bodyCount; ++b) {
     if (!shape.moves[b]) continue;
-    if (shape.hasAngular) respond<N>(shape, row, b, s.bodies[shape.body[b]]);
+    if (shape.hasAngular) respond<N>(shape, row, b, s.bodies[shape.body[b]], factor);
     coupleSelf<R, N>(s, i, b, a);
   }
   N trace = a[0];
   if constexpr (R == 3) trace = trace + a[2] + a[5];
   const N mean = trace * all<N>(1.0 / shape.rows);
   const N yields = load(row.regularisation) * mean;
-  store(row.factor.yields, yields);
+  store(factor.yields, yields);
   const N extra = yields + wherePositive(mean, all<N>(kRedundancy) * mean, all<N>(1));
   const N free = i < s.tailStart ? load(row.free) : all<N>(1);
   for (int r = 0; r < R; ++r) {
     for (int c = 0; c <= r; ++c) {
       N entry = a[triangle(r, c)] + load(row.alpha[triangle(r, c)]);
       if (r == c) entry = r < shape.rows ? entry + extra : all<N>(1);
-      store(row.factor.diagonal[triangle(r, c)],
-            wherePositive(free, entry, all<N>(r == c ? 1 : 0)));
+      store(factor.diagonal[triangle(r, c)], wherePositive(free, entry, all<N>(r == c ? 1 : 0)));
     }
   }
 }
@@ -239,7 +239,7 @@ void withSize(int size, F&& f) {
 
 template <class N>
 void eliminate(const Of<N>& s, int i) {
-  auto& factor = s.rows[i].factor;
+  auto& factor = s.factors[i];
   const JointColumn& column = s.columns[i];
   const JointBelow* below = s.below + column.start;
   const int *used = s.usedBelow + column.start, count = s.usedCounts[i];
@@ -266,7 +266,7 @@ void eliminate(const Of<N>& s, int i) {
           });
         }
         auto* diagonal = q.to < s.tailStart
-                             ? s.rows[q.to].factor.diagonal
+                             ? s.factors[q.to].diagonal
                              : &s.tail.a[triangle(q.to - s.tailStart, q.to - s.tailStart)];
         update<kR, kR, kI, true, N>(diagonal, scaled, s.entries + q.at);
       });
@@ -287,7 +287,7 @@ void buildTail(const Of<N>& s) {
     }
     tail.places[count++] = place;
     buildDiagonal<1, N>(s, i);
-    store(tail.a[triangle(place, place)], load(s.rows[i].factor.diagonal[0]));
+    store(tail.a[triangle(place, place)], load(s.factors[i].diagonal[0]));
   }
   *tail.count = count;
   *tail.isFactored = false;
@@ -297,7 +297,7 @@ void buildTail(const Of<N>& s) {
     if (!s.used[later] || !s.used[earlier]) continue;
     N sum = all<N>(0);
     for (int m = 0; m < pair.meeting.count; ++m) {
-      const Triple<N> response = load3<N>(s.rows[earlier].factor.response[pair.meeting.earlier[m]]);
+      const Triple<N> response = load3<N>(s.factors[earlier].response[pair.meeting.earlier[m]]);
       sum = sum + dot(load3<N>(s.rows[later].angular[pair.meeting.later[m]]), response);
     }
     store(tail.a[triangle(pair.later, pair.earlier)], sum);
@@ -316,8 +316,8 @@ void findChanged(const Of<N>& s, bool (&changed)[N::kWidth]) {
   N most = all<N>(0);
   for (int i = 0; i < s.bodyCount; ++i) {
     const JointBody<N::kWidth>& body = s.bodies[i];
-    const Triple<N> turned = load3<N>(body.theta) - load3<N>(body.factorTheta);
-    const N before = load(body.factorVolume), more = volume<N>(body) - before;
+    const Triple<N> turned = load3<N>(body.theta) - load3<N>(s.factored[i].theta);
+    const N before = load(s.factored[i].volume), more = volume<N>(body) - before;
     most = larger(most, squaredNorm(turned) - all<N>(kKeptTurn * kKeptTurn));
     most = larger(most, more - all<N>(kKeptMass) * before);
   }
@@ -332,7 +332,7 @@ void respondAll(const Of<N>& s) {
     const JointShape& shape = s.shapes[i];
     if (!s.used[i] || !shape.hasAngular) continue;
     for (int b = 0; b < shape.bodyCount; ++b) {
-      if (shape.moves[b]) respond<N>(shape, s.rows[i], b, s.bodies[shape.body[b]]);
+      if (shape.moves[b]) respond<N>(shape, s.rows[i], b, s.bodies[shape.body[b]], s.factors[i]);
     }
   }
 }
@@ -340,9 +340,8 @@ void respondAll(const Of<N>& s) {
 template <class N>
 void factorize(const Of<N>& s) {
   for (int i = 0; i < s.bodyCount; ++i) {
-    JointBody<N::kWidth>& body = s.bodies[i];
-    store3(body.factorTheta, load3<N>(body.theta));
-    store(body.factorVolume, volume<N>(body));
+    store3(s.factored[i].theta, load3<N>(s.bodies[i].theta));
+    store(s.factored[i].volume, volume<N>(s.bodies[i]));
   }
   for (int i = 0; i < s.tailStart; ++i) {
     if (!s.used[i]) continue;
@@ -368,6 +367,31 @@ void factorize(const Of<N>& s) {
   for (int i = 0; i < s.tailStart; ++i) {
     if (s.used[i]) eliminate<N>(s, i);
   }
+}
+
+// to[k] <- from[k] in lanes that are not stale
+template <class N>
+void keep(const Num<N::kWidth>* from, N stale, int count, Num<N::kWidth>* to) {
+  for (int k = 0; k < count; ++k) store(to[k], wherePositive(stale, load(to[k]), load(from[k])));
+}
+
+template <class N>
+void restore(const Of<N>& s, const JointKept<N::kWidth>& kept) {
+  const N stale = load(kept.stale);
+  for (int i = 0; i < s.rowCount; ++i) {
+    if (!s.used[i]) continue;
+    const JointFactor<N::kWidth>& from = kept.factors[i];
+    JointFactor<N::kWidth>& to = s.factors[i];
+    keep(from.inverse, stale, 6, to.inverse);
+    keep(&from.yields, stale, 1, &to.yields);
+    for (int b = 0; b < 2; ++b) keep(from.response[b], stale, 9, to.response[b]);
+  }
+  for (int i = 0; i < s.bodyCount; ++i) {
+    keep(kept.factored[i].theta, stale, 3, s.factored[i].theta);
+    keep(&kept.factored[i].volume, stale, 1, &s.factored[i].volume);
+  }
+  keep(kept.scaled, stale, kept.scaledCount, s.scaled);
+  keep(kept.tail, stale, kept.tailCount, s.tail.a);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The kernels of joint_block.h, for the two files that compile them. KERNELS(n) names the table for
-// n lanes. What is done in one lane is the same, to the last bit, for any number of them.
+// The kernels of joint_block.h, for the files that compile them. What is done in one lane is the
+// same, to the last bit, for any number of them.
 #include "physics/solver/joint_block.h"
 #include "physics/solver/joint_factor.h"
 #include "physics/solver/joint_limits.h"
@@ -137,7 +137,7 @@ void aimAtErrors(const Of<N>& s) {
     const Triple<N> lambda = load3<N>(row.lambda);
     Triple<N> error = load3<N>(row.c) - load3<N>(row.left) + since;
     if (s.shapes[i].seen == JointSeen::kByKind) error = error + alphaTimes<N>(row.alpha, lambda);
-    error = error + lambda * load(row.factor.yields);
+    error = error + lambda * load(s.factors[i].yields);
     aim<N>(s, row, error);
   }
 }
@@ -202,13 +202,14 @@ void substitute(const Of<N>& s) {
     const JointBelow* below = s.below + s.columns[i].start;
     const int* used = s.usedBelow + s.columns[i].start;
     auto& row = s.rows[i];
+    const auto* inverse = s.factors[i].inverse;
     withSize(s.shapes[i].size, [&](auto size) {
       constexpr int kI = decltype(size)::value;
       N y[kI];
       for (int r = 0; r < kI; ++r) {
-        y[r] = load(row.factor.inverse[symmetric(r, 0)]) * load(row.right[0]);
+        y[r] = load(inverse[symmetric(r, 0)]) * load(row.right[0]);
         for (int c = 1; c < kI; ++c) {
-          y[r] = y[r] + load(row.factor.inverse[symmetric(r, c)]) * load(row.right[c]);
+          y[r] = y[r] + load(inverse[symmetric(r, c)]) * load(row.right[c]);
         }
       }
       for (int u = 0; u < s.usedCounts[i]; ++u) {
@@ -233,6 +234,7 @@ void give(const Of<N>& s) {
     auto& row = s.rows[i];
     const Triple<N> change = load3<N>(row.right);
     const N parts[3] = {change.x, change.y, change.z};
+    const auto& response = s.factors[i].response;
     for (int b = 0; b < shape.bodyCount; ++b) {
       if (!shape.moves[b]) continue;
       auto& body = s.bodies[shape.body[b]];
@@ -241,7 +243,7 @@ void give(const Of<N>& s) {
       if (shape.isGap) u = b == 0 ? u + change * m : u - change * m;
       for (int r = 0; r < shape.rows; ++r) {
         if (shape.hasLinear) u = u + load3<N>(row.linear[b] + 3 * r) * (m * parts[r]);
-        if (shape.hasAngular) theta = theta + load3<N>(row.factor.response[b] + 3 * r) * parts[r];
+        if (shape.hasAngular) theta = theta + load3<N>(response[b] + 3 * r) * parts[r];
       }
       store3(body.u, u);
       store3(body.theta, theta);
@@ -282,14 +284,10 @@ void apply(const Of<N>& s) {
 
 template <class N>
 constexpr JointKernels<N::kWidth> tableOf() {
-  return {place<N>,           turnBack<N>,    seeGaps<N>,    seeLimits<N>,   chooseLimits<N>,
-          factorize<N>,       findChanged<N>, respondAll<N>, aimAtErrors<N>, findOpen<N>,
-          aimAtVelocities<N>, substitute<N>,  follow<N>,     apply<N>};
+  return {place<N>,     turnBack<N>,        seeGaps<N>,     seeLimits<N>,  chooseLimits<N>,
+          factorize<N>, restore<N>,         findChanged<N>, respondAll<N>, aimAtErrors<N>,
+          findOpen<N>,  aimAtVelocities<N>, substitute<N>,  follow<N>,     apply<N>};
 }
 
 }  // namespace
-
-const JointKernels<1> KERNELS(1) = tableOf<One>();
-const JointKernels<4> KERNELS(4) = tableOf<Four>();
-
 }  // namespace physics

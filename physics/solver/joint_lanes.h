@@ -29,14 +29,6 @@ void writeRows(Num<W>* to, int l, const Mat3& m, int rows) {
   }
 }
 
-// Lanes that are not to be changed get back what they had.
-template <int W>
-void restoreLanes(const Num<W>* from, const std::array<bool, W>& changed, int count, Num<W>* to) {
-  for (int k = 0; k < count; ++k) {
-    for (int l = 0; l < W; ++l) to[k].v[l] = changed[l] ? to[k].v[l] : from[k].v[l];
-  }
-}
-
 // `ids`: the body of each lane, body after body.
 template <int W>
 void gatherMotion(std::span<const BodyId> ids, std::span<const Displacement> moved,

@@ -1,5 +1,6 @@
-// One double, or four at a time: one AVX2 register, or two SSE2 halves. Every operation is rounded
-// as IEEE says, lane by lane, so that all give the same bytes. Included by the kernels alone.
+// One double, four at a time in one AVX2 register or two SSE2 halves, or eight in one of AVX-512.
+// Every operation is rounded as IEEE says, lane by lane, so that all give the same bytes. Included
+// by the kernels alone.
 #pragma once
 
 #include <immintrin.h>
@@ -92,6 +93,34 @@ inline void store(Num<4>& p, Four a) {
   _mm_store_pd(p.v, a.low);
   _mm_store_pd(p.v + 2, a.high);
 }
+
+#endif
+
+#ifdef __AVX512F__
+
+struct Eight {
+  static constexpr int kWidth = 8;
+  __m512d v;
+};
+inline Eight operator+(Eight a, Eight b) { return {_mm512_add_pd(a.v, b.v)}; }
+inline Eight operator-(Eight a, Eight b) { return {_mm512_sub_pd(a.v, b.v)}; }
+inline Eight operator*(Eight a, Eight b) { return {_mm512_mul_pd(a.v, b.v)}; }
+inline Eight operator/(Eight a, Eight b) { return {_mm512_div_pd(a.v, b.v)}; }
+// With a mask of all lanes: g++ 12 warns of what it leaves undefined without one.
+constexpr __mmask8 kEvery = 0xff;
+inline Eight larger(Eight a, Eight b) { return {_mm512_mask_max_pd(a.v, kEvery, a.v, b.v)}; }
+inline Eight smaller(Eight a, Eight b) { return {_mm512_mask_min_pd(a.v, kEvery, a.v, b.v)}; }
+inline Eight root(Eight a) { return {_mm512_mask_sqrt_pd(a.v, kEvery, a.v)}; }
+inline __mmask8 positive(Eight a) {
+  return _mm512_cmp_pd_mask(a.v, _mm512_setzero_pd(), _CMP_GT_OQ);
+}
+inline Eight wherePositive(Eight test, Eight a, Eight b) {
+  return {_mm512_mask_blend_pd(positive(test), b.v, a.v)};
+}
+inline bool anyPositive(Eight test) { return positive(test) != 0; }
+inline void put(double a, Eight& to) { to.v = _mm512_set1_pd(a); }
+inline Eight load(const Num<8>& p) { return {_mm512_load_pd(p.v)}; }
+inline void store(Num<8>& p, Eight a) { _mm512_store_pd(p.v, a.v); }
 
 #endif
 

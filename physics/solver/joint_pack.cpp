@@ -30,6 +30,11 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     rows_.assign(topology_->shapes.size(), JointLanes<W>{});
     entries_.assign(topology_->lower, Num<W>{});
     scaled_.assign(topology_->lower, Num<W>{});
+    factors_.assign(rows_.size(), JointFactor<W>{});
+    keptScaled_ = scaled_;
+    keptFactors_ = factors_;
+    factored_.assign(bodies_.size(), JointFactored<W>{});
+    keptFactored_ = factored_;
     states_.assign(topology_->shapes.size(), State{});
     used_.resize(rows_.size());
     steps_.lambda.resize(rows_.size());
@@ -39,6 +44,7 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     usedBelow_.resize(topology_->below.size());
     const std::size_t tail = rows_.size() - topology_->tailStart;
     tail_.resize(tail * (tail + 1) / 2);
+    keptTail_ = tail_;
     tailWork_.resize(tail_.size() + 3 * tail);
     tailGives_.resize(tail);
     tailPlaces_.resize(tail);
@@ -80,6 +86,8 @@ JointView<W> JointPack<W>::view() {
   Num<W>* work = tailWork_.data();
   return {bodies_.data(),
           rows_.data(),
+          factors_.data(),
+          factored_.data(),
           entries_.data(),
           scaled_.data(),
           static_cast<int>(bodies_.size()),
@@ -293,37 +301,21 @@ void JointPack<W>::factorizeStale() {
   const auto end = stale_.begin() + lanes_;
   if (std::none_of(stale_.begin(), end, isStale)) return;
   if (!seenSince_ || std::all_of(stale_.begin(), end, isStale)) return factorize();
-  const std::array<bool, W> stale = stale_;
-  keptFactors_.resize(rows_.size());
-  keptTail_ = tail_;
-  keptScaled_ = scaled_;
-  keptTurns_.resize(bodies_.size());
-  const auto forEachUsed = [&](auto&& f) {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (used_[i]) f(i);
-    }
-  };
-  forEachUsed([&](std::size_t i) { keptFactors_[i] = rows_[i].factor; });
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    std::copy(std::begin(bodies_[i].factorTheta), std::end(bodies_[i].factorTheta),
-              keptTurns_[i].begin());
-    keptTurns_[i].back() = bodies_[i].factorVolume;
-  }
+  JointKept<W> kept{};
+  for (int l = 0; l < W; ++l) kept.stale.v[l] = stale_[l] ? 1 : 0;
+  std::swap(factors_, keptFactors_);
+  std::swap(scaled_, keptScaled_);
+  std::swap(tail_, keptTail_);
+  std::swap(factored_, keptFactored_);
   factorize();
   seenSince_ = true;
-  forEachUsed([&](std::size_t i) {
-    const JointFactor<W>& from = keptFactors_[i];
-    JointFactor<W>& to = rows_[i].factor;
-    for (int b = 0; b < 2; ++b) restoreLanes<W>(from.response[b], stale, 9, to.response[b]);
-    restoreLanes<W>(&from.yields, stale, 1, &to.yields);
-    restoreLanes<W>(from.inverse, stale, 6, to.inverse);
-  });
-  restoreLanes<W>(keptScaled_.data(), stale, topology_->lower, scaled_.data());
-  restoreLanes<W>(keptTail_.data(), stale, static_cast<int>(tail_.size()), tail_.data());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    restoreLanes<W>(keptTurns_[i].data(), stale, 3, bodies_[i].factorTheta);
-    restoreLanes<W>(&keptTurns_[i].back(), stale, 1, &bodies_[i].factorVolume);
-  }
+  kept.factors = keptFactors_.data();
+  kept.factored = keptFactored_.data();
+  kept.scaled = keptScaled_.data();
+  kept.tail = keptTail_.data();
+  kept.scaledCount = static_cast<int>(scaled_.size());
+  kept.tailCount = static_cast<int>(tail_.size());
+  jointKernels<W>().restore(view(), kept);
 }
 
 // Rows that the solution would take past a bound are held there, and the others are to be solved
@@ -810,5 +802,6 @@ void JointPack<W>::finish(Kinds& kinds, double h) {
 
 template class JointPack<1>;
 template class JointPack<4>;
+template class JointPack<8>;
 
 }  // namespace physics

@@ -69,5 +69,6 @@ void JointPack<W>::respond() {
 
 template void JointPack<1>::respond();
 template void JointPack<4>::respond();
+template void JointPack<8>::respond();
 
 }  // namespace physics
