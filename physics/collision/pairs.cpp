@@ -6,12 +6,14 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace physics::collision {
 namespace {
 
-constexpr double kSlack = 0.04;  // of the size: how much bounds are fatter than they must be
-constexpr double kAhead = 4;     // steps of the present motion that the bounds hold
+constexpr double kSlack = 0.04;     // of the size: how much bounds are fatter than they must be
+constexpr int kLeastWatches = 256;  // of a thread
+constexpr double kAhead = 4;        // steps of the present motion that the bounds hold
 // m: bodies lie no further along a plane that turns; what a step turns it by counts so far out.
 constexpr double kPlaneReach = 1e4;
 
@@ -131,25 +133,23 @@ bool Pairs::touches(int p, int q) const {
   return overlap(fat_[p], fat_[q]);
 }
 
-// For so many findings more: they are large, and come all at once. Nothing is allocated when pairs
+// Findings for so many more: they are large, and come all at once. Nothing is allocated when pairs
 // part.
 void Pairs::makeRoom(std::size_t more) {
   const std::size_t all = findings_.size() + more - std::min(more, free_.size());
   if (all > findings_.capacity()) findings_.reserve(std::max(all, 2 * findings_.capacity()));
   free_.reserve(findings_.capacity());
-}
-
-Watch Pairs::newWatch(int p, int q) {
-  if (free_.empty()) {
+  while (free_.size() < more) {
     free_.push_back(static_cast<int>(findings_.size()));
     findings_.emplace_back();
   }
+}
+
+Watch Pairs::newWatch(const std::pair<int, int>& items, int finding) {
   Watch watch;
-  watch.a = p;
-  watch.b = q;
-  watch.finding = free_.back();
-  free_.pop_back();
-  name(watch, findings_[watch.finding].manifold);
+  std::tie(watch.a, watch.b) = items;
+  watch.finding = finding;
+  name(watch, findings_[finding].manifold);
   return watch;
 }
 
@@ -169,7 +169,6 @@ bool Pairs::isParted(const Watch& watch) const {
 }
 
 void Pairs::dropParted(Workers& workers) {
-  constexpr int kLeastWatches = 256;  // of a thread
   parted_.resize(watches_.size());
   workers.forEachChunk(static_cast<int>(watches_.size()), kLeastWatches, [&](int from, int to) {
     for (int k = from; k < to; ++k) parted_[k] = isParted(watches_[k]);
@@ -230,27 +229,44 @@ std::span<const int> Pairs::findNew(Workers& workers) {
     fresh_.insert(fresh_.end(), offers.fresh.begin(), offers.fresh.end());
   }
   std::sort(fresh_.begin(), fresh_.end());
-  mergeFresh();
+  mergeFresh(workers);
   ignoredMore_ = false;
   return freshAt_;
 }
 
-// They take their places, from the back.
-void Pairs::mergeFresh() {
+// Each takes its place among the others. Who has a part of these has what comes before each of
+// them, and the last one what comes after all.
+void Pairs::mergeFresh(Workers& workers) {
   const auto isBefore = [](const Watch& w, const std::pair<int, int>& p) { return w.items() < p; };
-  std::ptrdiff_t old = std::ssize(watches_);
-  makeRoom(fresh_.size());
+  const int old = static_cast<int>(watches_.size());
   freshAt_.resize(fresh_.size());
-  watches_.resize(watches_.size() + fresh_.size());
-  auto to = watches_.end();
-  for (std::size_t k = fresh_.size(); k-- > 0;) {
-    const auto end = watches_.begin() + old;
-    const auto behind = std::lower_bound(watches_.begin(), end, fresh_[k], isBefore);
-    to = std::move_backward(behind, end, to);
-    *--to = newWatch(fresh_[k].first, fresh_[k].second);
-    freshAt_[k] = static_cast<int>(to - watches_.begin());
-    old = behind - watches_.begin();
-  }
+  if (fresh_.empty()) return;
+  makeRoom(fresh_.size());
+  const std::span<const int> findings = std::span(free_).last(fresh_.size());
+  const std::size_t all = watches_.size() + fresh_.size();
+  if (all > merged_.capacity()) merged_.reserve(2 * all);
+  merged_.resize(all);
+  const auto freshUntil = [&](int i) {
+    if (i == old) return fresh_.end();
+    return std::lower_bound(fresh_.begin(), fresh_.end(), watches_[i].items());
+  };
+  workers.forEachChunk(old + 1, kLeastWatches, [&](int from, int to) {
+    auto next = watches_.begin() + from;
+    const auto end = watches_.begin() + std::min(to, old);
+    const auto last = freshUntil(to - 1);
+    for (auto k = from == 0 ? fresh_.begin() : freshUntil(from - 1); k != last; ++k) {
+      const auto behind = std::lower_bound(next, end, *k, isBefore);
+      const auto i = k - fresh_.begin();
+      const auto at = std::copy(next, behind, merged_.begin() + (next - watches_.begin()) + i);
+      *at = newWatch(*k, findings[i]);
+      freshAt_[i] = static_cast<int>(at - merged_.begin());
+      next = behind;
+    }
+    std::copy(next, end, merged_.begin() + (next - watches_.begin()) + (last - fresh_.begin()));
+  });
+  free_.resize(free_.size() - fresh_.size());
+  std::swap(watches_, merged_);
+  merged_.reserve(watches_.capacity());
 }
 
 bool Pairs::takeMotion(int i, const Pose& bodyFrom, const Pose& bodyTo) {

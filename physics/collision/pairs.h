@@ -68,9 +68,9 @@ class Pairs {
   void dropParted(Workers& workers);
   bool isWatched(int p, int q) const;
   void offer(int p, int q, std::vector<std::pair<int, int>>& fresh) const;
-  void mergeFresh();
+  void mergeFresh(Workers& workers);
   void makeRoom(std::size_t more);
-  Watch newWatch(int p, int q);
+  Watch newWatch(const std::pair<int, int>& items, int finding);
   void name(const Watch& watch, Manifold& manifold) const;
   void archiveFinding(Archive& a, const Watch& watch);
   static void setMotion(Item& item, const Mat3& R, const Pose& from, const Pose& to);
@@ -90,6 +90,7 @@ class Pairs {
   std::int64_t broadPhaseCalls_ = 0;
 
   std::vector<Watch> watches_;
+  std::vector<Watch> merged_;            // the next watches
   std::vector<Watch> parked_;            // of two that rest; sorted
   std::vector<Finding> findings_;        // beside the watches: seldom read while at rest
   std::vector<int> free_;                // of the findings

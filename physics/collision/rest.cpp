@@ -89,10 +89,10 @@ std::size_t Pairs::bytes() const {
   std::size_t sum = bytesOf(items_) + bytesOf(told_) + bytesOf(fat_) + bytesOf(indexOf_) +
                     bytesOf(planes_) + bytesOf(moving_) + bytesOf(late_) + bytesOf(treeIndex_) +
                     bytesOf(itemOfTree_) + bytesOf(ignored_) + bytesOf(fresh_) + bytesOf(parked_) +
-                    bytesOf(watches_) + bytesOf(findings_) + bytesOf(free_) + bytesOf(moved_) +
-                    bytesOf(movedTree_) + bytesOf(treeBounds_) + bytesOf(parted_) +
-                    bytesOf(watchedAt_) + bytesOf(others_) + bytesOf(freshAt_) + bytesOf(offers_) +
-                    tree_.bytes();
+                    bytesOf(watches_) + bytesOf(merged_) + bytesOf(findings_) + bytesOf(free_) +
+                    bytesOf(moved_) + bytesOf(movedTree_) + bytesOf(treeBounds_) +
+                    bytesOf(parted_) + bytesOf(watchedAt_) + bytesOf(others_) + bytesOf(freshAt_) +
+                    bytesOf(offers_) + tree_.bytes();
   for (const Offers& offers : offers_) sum += bytesOf(offers.found) + bytesOf(offers.fresh);
   for (const Item& item : items_) {
     sum += bytesOf(item.solid.edges);

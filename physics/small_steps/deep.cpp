@@ -44,19 +44,25 @@ void SmallSteps::Impl::forEachDeep(const Batch& batch, std::span<const ContactBl
 // of them pushed alike, a crowd could balance with the one inside the other: around the deepest the
 // others are pushed in proportion to their depth, which is how springs unpack. Figures come apart
 // as their joints let them, in turns with these.
-void SmallSteps::Impl::noteDeep(Batch& batch) const {
+void SmallSteps::Impl::noteDeep(Batch& batch) {
   forEachDeep(batch, batch.blocks, [&](const ContactBlock& block, int l, float depth) {
     for (const int slot : {block.bodyA[l], block.bodyB[l]}) {
       if (slot > 0) batch.motions[slot].own = std::max(batch.motions[slot].own, depth);
     }
   });
   for (LaneMotion& motion : batch.motions) motion.deepest = motion.own;
+  overlaps.clear();
+  forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float) {
+    if (block.bodyA[l] > 0 && block.bodyB[l] > 0) {
+      overlaps.emplace_back(block.bodyA[l], block.bodyB[l]);
+    }
+  });
   for (int ring = 0; ring < kPositionSweeps; ++ring) {
-    forEachOverlap(batch.blocks, [&](const ContactBlock& block, int l, float) {
-      LaneMotion &a = batch.motions[block.bodyA[l]], &b = batch.motions[block.bodyB[l]];
-      if (block.bodyA[l] > 0) a.deepest = std::max(a.deepest, b.own);
-      if (block.bodyB[l] > 0) b.deepest = std::max(b.deepest, a.own);
-    });
+    for (const auto& [slotA, slotB] : overlaps) {
+      LaneMotion &a = batch.motions[slotA], &b = batch.motions[slotB];
+      a.deepest = std::max(a.deepest, b.own);
+      b.deepest = std::max(b.deepest, a.own);
+    }
     for (LaneMotion& motion : batch.motions) motion.own = motion.deepest;
   }
 }

@@ -59,10 +59,10 @@ BodyId SmallSteps::Impl::leaderOf(BodyId i) const {
 }
 
 // A slot to every body, where it meets anything; those of a part follow each other.
-void SmallSteps::Impl::takeSlots(const Model& w, Batch& batch, int levels) {
+void SmallSteps::Impl::takeSlots(Model& w, Batch& batch, int levels) {
   batch.slots.assign(1, kWorldBody);
   batch.slots.insert(batch.slots.end(), batch.bodies.begin(), batch.bodies.end());
-  bisection.divide(w.bodies.pose, levels, std::span(batch.slots).subspan(1));
+  bisection.divide(w.bodies.pose, levels, std::span(batch.slots).subspan(1), w.workers);
   for (std::size_t s = 1; s < batch.slots.size(); ++s) slotOf[batch.slots[s]] = static_cast<int>(s);
   batch.motions.resize(batch.slots.size());
   batch.masses.resize(batch.slots.size());

@@ -254,9 +254,10 @@ struct SmallSteps::Impl {
   std::vector<Joined> joined;                                   // the same
   std::vector<double> load, sag, energy, change, changeBefore;  // by body (island: by its first)
   std::vector<double> drawn, carried, weight;                   // the same
-  std::vector<Displacement> predicted;  // by body: before joints and contacts
-  std::vector<LaneNumbers> works;       // scratch, by block
-  std::vector<int> forApproach;         // the same, by contact: substeps
+  std::vector<Displacement> predicted;        // by body: before joints and contacts
+  std::vector<LaneNumbers> works;             // scratch, by block
+  std::vector<std::pair<int, int>> overlaps;  // scratch, by slots
+  std::vector<int> forApproach;               // the same, by contact: substeps
 
   void learn(Model& w);
   void learnAccurate(Model& w, const std::vector<std::vector<JointRef>>& rows);
@@ -323,7 +324,7 @@ struct SmallSteps::Impl {
   int countLanes(Batch& batch, int levels);
   BodyId leaderOf(BodyId i) const;
   bool meetsResponse(const KeptContact& c) const;
-  void takeSlots(const Model& w, Batch& batch, int levels);
+  void takeSlots(Model& w, Batch& batch, int levels);
   void takeResponses(Batch& batch);
   void respond(Batch& batch);
   void prepareResponses(Batch& batch, ContactBlock& block, int lane) const;
@@ -445,7 +446,7 @@ struct SmallSteps::Impl {
   bool isDeep(const Batch& batch, std::span<const ContactBlock> blocks) const;
   template <class F>
   void forEachDeep(const Batch& batch, std::span<const ContactBlock> blocks, F&& f) const;
-  void noteDeep(Batch& batch) const;
+  void noteDeep(Batch& batch);
   std::vector<SoftPair> softPairs;
   std::vector<SoftContact> gathered;  // scratch, and its order
   std::vector<int> gatherOrder;

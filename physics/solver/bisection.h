@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/base/workers.h"
 #include "physics/bodies/body.h"
 
 namespace physics {
@@ -13,7 +14,7 @@ class Bisection {
  public:
   // Sorts `bodies` into 2^levels parts, each half of what the level before had, cut across where
   // that is the widest. Positions are to be finite.
-  void divide(std::span<const Pose> pose, int levels, std::span<BodyId> bodies);
+  void divide(std::span<const Pose> pose, int levels, std::span<BodyId> bodies, Workers& workers);
   // The part of the k-th of them.
   int partOf(std::size_t k) const { return parts_[k]; }
 
@@ -22,8 +23,9 @@ class Bisection {
     Vec3 x;
     BodyId body;
   };
-  void divide(std::size_t from, std::size_t to, int levels, int part);
+  std::size_t cut(std::size_t from, std::size_t to);  // where its second half begins
   std::vector<Place> places_;
+  std::vector<std::size_t> starts_, halves_;  // of the parts of a level, and of the next one
   std::vector<int> parts_;
 };
 

@@ -27,8 +27,9 @@ struct Cloud {
 
 TEST(Bisection, HasEveryBodyOnceInPartsOfEqualSize) {
   Cloud cloud(1003, Vec3(1, 2, 3));
+  Workers workers;
   Bisection bisection;
-  bisection.divide(cloud.pose, 3, cloud.bodies);
+  bisection.divide(cloud.pose, 3, cloud.bodies, workers);
   EXPECT_EQ(std::set<BodyId>(cloud.bodies.begin(), cloud.bodies.end()).size(), 1003U);
   std::vector<int> sizes(8, 0);
   for (std::size_t k = 0; k < cloud.bodies.size(); ++k) {
@@ -40,8 +41,9 @@ TEST(Bisection, HasEveryBodyOnceInPartsOfEqualSize) {
 
 TEST(Bisection, CutsAcrossWhereItIsTheWidest) {
   Cloud cloud(64, Vec3(1, 5, 2));
+  Workers workers;
   Bisection bisection;
-  bisection.divide(cloud.pose, 1, cloud.bodies);
+  bisection.divide(cloud.pose, 1, cloud.bodies, workers);
   double below = -1e9, above = 1e9;
   for (std::size_t k = 0; k < cloud.bodies.size(); ++k) {
     const double y = cloud.pose[cloud.bodies[k]].x.y();
@@ -56,9 +58,10 @@ TEST(Bisection, DependsOnNothingButPlacesAndNumbers) {
   for (const int count : {1, 3, 200}) {
     Cloud cloud(count, Vec3::Zero());
     std::vector<BodyId> turned(cloud.bodies.rbegin(), cloud.bodies.rend());
+    Workers workers;
     Bisection bisection, other;
-    bisection.divide(cloud.pose, 3, cloud.bodies);
-    other.divide(cloud.pose, 3, turned);
+    bisection.divide(cloud.pose, 3, cloud.bodies, workers);
+    other.divide(cloud.pose, 3, turned, workers);
     EXPECT_EQ(cloud.bodies, turned);
   }
 }
