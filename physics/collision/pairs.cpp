@@ -6,16 +6,15 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 namespace physics::collision {
 namespace {
 
-constexpr double kSlack = 0.04;     // of the size: how much bounds are fatter than they must be
-constexpr int kLeastWatches = 256;  // of a thread
-constexpr double kAhead = 4;        // steps of the present motion that the bounds hold
+constexpr double kSlack = 0.04;  // of the size: how much bounds are fatter than they must be
+constexpr double kAhead = 4;     // steps of the present motion that the bounds hold
 // m: bodies lie no further along a plane that turns; what a step turns it by counts so far out.
 constexpr double kPlaneReach = 1e4;
+constexpr int kLeastWatches = 256;  // of a thread
 
 Bounds grown(const Bounds& bounds, double by) {
   return {bounds.low - Vec3::Constant(by), bounds.high + Vec3::Constant(by)};
@@ -147,7 +146,8 @@ void Pairs::makeRoom(std::size_t more) {
 
 Watch Pairs::newWatch(const std::pair<int, int>& items, int finding) {
   Watch watch;
-  std::tie(watch.a, watch.b) = items;
+  watch.a = items.first;
+  watch.b = items.second;
   watch.finding = finding;
   name(watch, findings_[finding].manifold);
   return watch;

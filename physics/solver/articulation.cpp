@@ -75,11 +75,11 @@ void JointPacks::take(std::span<Articulation> articulations, std::span<const int
     for (std::size_t k = 0; k < list.size(); k += most) {
       const std::span of = std::span(list).subspan(k, std::min(most, list.size() - k));
       if (of.size() == 1) {
-        add(std::get<0>(packs_), of);
+        add(std::get<Packs<1>>(packs_), of);
       } else if (of.size() <= 4) {
-        add(std::get<1>(packs_), of);
+        add(std::get<Packs<4>>(packs_), of);
       } else {
-        add(std::get<2>(packs_), of);
+        add(std::get<Packs<8>>(packs_), of);
       }
     }
   }

@@ -301,21 +301,17 @@ void JointPack<W>::factorizeStale() {
   const auto end = stale_.begin() + lanes_;
   if (std::none_of(stale_.begin(), end, isStale)) return;
   if (!seenSince_ || std::all_of(stale_.begin(), end, isStale)) return factorize();
-  JointKept<W> kept{};
-  for (int l = 0; l < W; ++l) kept.stale.v[l] = stale_[l] ? 1 : 0;
+  Num<W> stale;
+  for (int l = 0; l < W; ++l) stale.v[l] = stale_[l] ? 1 : 0;
   std::swap(factors_, keptFactors_);
   std::swap(scaled_, keptScaled_);
   std::swap(tail_, keptTail_);
   std::swap(factored_, keptFactored_);
   factorize();
   seenSince_ = true;
-  kept.factors = keptFactors_.data();
-  kept.factored = keptFactored_.data();
-  kept.scaled = keptScaled_.data();
-  kept.tail = keptTail_.data();
-  kept.scaledCount = static_cast<int>(scaled_.size());
-  kept.tailCount = static_cast<int>(tail_.size());
-  jointKernels<W>().restore(view(), kept);
+  jointKernels<W>().restore(
+      view(), {keptFactors_.data(), keptFactored_.data(), keptScaled_.data(), keptTail_.data(),
+               static_cast<int>(scaled_.size()), static_cast<int>(tail_.size()), stale});
 }
 
 // Rows that the solution would take past a bound are held there, and the others are to be solved
