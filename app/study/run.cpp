@@ -53,6 +53,16 @@ class Stand {
   PlayEngine engine_;
 };
 
+constexpr double kLight = 299792458;  // m/s: whatever is faster has diverged
+
+double fastest(const scenes::Simulation& simulation) {
+  double most = 0;
+  for (const physics::Velocity& velocity : simulation.world().bodies().velocity) {
+    most = std::max(most, velocity.v.norm());
+  }
+  return most;
+}
+
 void count(const physics::StepReport& report, int bodies, Trace& trace) {
   trace.evaluations += static_cast<double>(report.constraintEvaluations);
   trace.sweeps += report.iterations;
@@ -118,8 +128,20 @@ class Performance {
     spent_ += step.processor;
     if (steps_++ % stride_ != 0) return true;
     ++trace_.frames;
+    const bool isLost = hasDiverged();
     if (visit_ && !visit_(simulation_, trace_)) return false;
-    return !isTooMuch();
+    return !isLost && !isTooMuch();
+  }
+
+  bool hasDiverged() {
+    const double speed = fastest(simulation_);
+    if (speed <= kLight) return false;
+    const int frame = simulation_.frame();
+    trace_.status = Status::kDiverged;
+    trace_.message = fmt::format("a body moves at {:.3g} m/s", speed);
+    const double time = frame / static_cast<double>(simulation_.scene().fps);
+    trace_.failure = TraceFailure{frame, time, trace_.message, "", ""};
+    return true;
   }
 
   bool isTooMuch() {

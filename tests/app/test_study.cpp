@@ -142,6 +142,22 @@ TEST_F(Study, APointThatFailsIsShownAndDoesNotStopTheOthers) {
   EXPECT_NE(outcome.output.find("refused: --set simulation.relaxation=7"), std::string::npos);
 }
 
+// What is measured, x, is exactly right; the motion is lost all the same.
+TEST_F(Study, ABodyFasterThanLightHasDiverged) {
+  writeText(folder / "fall.toml", std::string(kFall) + "velocity = [0, 4e8, 0]\n");
+  std::string text = kCase;
+  text.replace(text.find("\"y\""), 3, "\"x\"");
+  text.replace(text.find("[0, 0, -5]"), 10, "[0]");
+  writeText(folder / "stone.toml", text);
+  const Outcome outcome = study("");
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  const std::vector<std::string> rows = measured();
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_NE(rows[1].find("diverged"), std::string::npos) << rows[1];
+  EXPECT_NE(points().find("a body moves at 4e+08 m/s"), std::string::npos) << points();
+  EXPECT_NE(outcome.output.find("4 failed"), std::string::npos) << outcome.output;
+}
+
 TEST_F(Study, WithoutGnuplotTheTablesAreMadeAndItSaysWhatToInstall) {
   const Outcome outcome = study("", "PATH=/nonexistent");
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
