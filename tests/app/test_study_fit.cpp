@@ -115,6 +115,24 @@ TEST(Asked, ThreeTimesWhatWasAskedIsStillDelivered) {
             "more the reference is no better than what was asked");
 }
 
+TEST(Asked, CostsAreComparedWithSettingsChosenByHandThatDeliverTheSame) {
+  Trace coarse = pointOf(1e-3, 0.1), fine = pointOf(2e-3, 1e-3);  // of a scale of 2
+  coarse.key = fine.key = {"case", "asked"};                      // by no accuracy: by hand
+  Trace cheap = askedPointOf(1e-1, 1e-3), dear = askedPointOf(1e-2, 1e-3);
+  cheap.wall = 1.2e-3;
+  dear.wall = 4e-3;
+  const CaseResults results = resultsOf(0, {cheap, dear, askedPointOf(1e-4, 1e-4), coarse, fine});
+  const std::vector<AskedPoint> asked = askedPoints({&results});
+  ASSERT_EQ(asked.size(), 3u);
+  EXPECT_DOUBLE_EQ(asked[0].overByHand, 1.2);  // the coarse one is good for 1e-1
+  EXPECT_DOUBLE_EQ(asked[1].overByHand, 2);    // but not for 1e-2
+  EXPECT_EQ(asked[2].overByHand, 0);           // and none for 1e-4
+  EXPECT_EQ(askedText(asked),
+            "3 of 3 points (100 %) are within 3 times the accuracy that they were asked for. 1 of "
+            "the 2 that settings of ours chosen by hand deliver as well cost at most 1.5 times the "
+            "cheapest of those; more cost 1: case at 1e-2 (2)");
+}
+
 TEST(Asked, WhatFailedWasNotDelivered) {
   Trace point = askedPointOf(1e-1, 0);
   point.status = Trace::Status::kNotFinite;
