@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/measure/metrics.h"
+#include "scenes/study/study_quantity.h"
+
 namespace app {
 
 namespace {
@@ -19,7 +22,17 @@ const char* wordOf(Verdict verdict) {
   return kWords[static_cast<int>(verdict)];
 }
 
+// Of bodies: what is measured of a scene as a whole, such as the gaps of its joints, may be right
+// where the motion is not.
+bool measuresMotion(const scenes::StudyCase& study) {
+  return std::all_of(study.quantities.begin(), study.quantities.end(), [](const auto& quantity) {
+    return scenes::findVectorMetric(quantity.metric) != nullptr ||
+           scenes::findMetric(quantity.metric)->scene == nullptr;
+  });
+}
+
 double overByHand(const CaseResults& results, const AskedPoint& asked) {
+  if (!measuresMotion(results.study)) return 0;
   const double error = std::max(asked.asked, asked.delivered);
   double least = INFINITY;
   for (const Trace* point : results.ours()) {
@@ -77,7 +90,7 @@ ChartSeries marks(const std::vector<AskedPoint>& points, Verdict verdict, const 
   return series;
 }
 
-// ". At 151 of 168 of them it costs at most 1.5 times ..."; empty: nothing was set by hand.
+// ". Of those whose case measures the motion, ..."; empty: nothing was set by hand.
 std::string byHandText(const std::vector<AskedPoint>& points) {
   int all = 0;
   std::string dear;
@@ -91,9 +104,10 @@ std::string byHandText(const std::vector<AskedPoint>& points) {
   const auto dearer = std::count_if(points.begin(), points.end(),
                                     [](const AskedPoint& p) { return p.overByHand > kDear; });
   return fmt::format(
-      ". {} of the {} that settings of ours chosen by hand deliver as well cost at most {:g} times "
-      "the cheapest of those; more cost {}{}",
-      all - dearer, all, kDear, dearer, dear);
+      ". Of those whose case measures the motion, settings of ours chosen by hand deliver {} as "
+      "well; "
+      "{} cost at most {:g} times the cheapest of those, {} more{}",
+      all, all - dearer, kDear, dearer, dear);
 }
 
 void addLine(double times, const std::string& title, const std::string& dash, Chart& chart) {

@@ -20,7 +20,8 @@ struct AskedPoint {
   double delivered = 0;  // its error over the case's scale; infinite: it failed
   double reference = 0;  // the reference's own error over the scale, where it is known
   // Its cost over that of the cheapest setting of ours chosen by hand that delivers what was asked
-  // for, or what it delivered where that is less accurate; 0: nothing else delivers it.
+  // for, or what it delivered where that is less accurate; 0: nothing else delivers it, or the case
+  // does not measure the motion.
   double overByHand = 0;
   Verdict verdict = Verdict::kDelivered;
 };
