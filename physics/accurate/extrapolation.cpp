@@ -92,12 +92,14 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     // A step ends where a table has a point: no order counts across one.
     const double whole = nextPart(world.kinds, from, rows.step, least);
     // Where joints close no further than that, speeds of a step are off by it over the step.
-    const double finest = isTree ? rows.noise : kFinest * lasting_ * columns / whole;
-    const double allowed = std::max(inAll * (whole / time), finest);
-    tolerance_ = step_.size() * std::max(kFinest, kClosed * allowed / (columns * columns));
+    const StepChoice::Allowance allowed{inAll * (whole / time),
+                                        isTree ? rows.noise : kFinest * lasting_ * columns / whole,
+                                        isTree ? 0 : 1};
+    const double closed = kClosed * allowed.most() / (columns * columns);
+    tolerance_ = step_.size() * std::max(kFinest, closed);
     const bool isDone = fill(rows.first, columns, from, whole, world, trial);
     const double step = whole / rows.reach;
-    if (!isDone || !(error_ <= allowed)) {
+    if (!isDone || !(error_ <= allowed.most())) {
       ++report.rejected;
       choice_.reject(step, isDone ? error_ : std::numeric_limits<double>::infinity(), allowed);
       continue;

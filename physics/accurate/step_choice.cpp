@@ -17,6 +17,15 @@ constexpr double kSafety = 0.8, kLeastChange = 0.1, kMostChange = 4;
 constexpr double kFailed = 0.5, kRegained = 1.05;
 constexpr double kPays = 0.9;  // another order does where it takes so much of the work: as ODEX
 
+// Of a step, so that an error that goes with it to that power is as allowed.
+double changeFor(double error, double allowed, int power) {
+  if (!(allowed > 0)) return kLeastChange;
+  double most = 1;  // the error that allows kMostChange, the other way round
+  for (int k = 0; k < power; ++k) most *= kMostChange / kSafety;
+  if (error * most <= allowed) return kMostChange;
+  return std::max(kSafety * rootOf(allowed / error, power), kLeastChange);
+}
+
 }  // namespace
 
 double rootOf(double x, int n) {
@@ -47,15 +56,13 @@ double StepChoice::next(double left, double time) const {
   return step < left ? std::min(step, 0.5 * left) : left;
 }
 
-double StepChoice::stepFor(double step, double error, int columns, double allowed) const {
-  const int power = power_ * (columns - 1) + (allowed_ == Allowed::kOfStep ? 1 : 0);
-  double most = 1;  // the error that allows kMostChange, the other way round
-  for (int k = 0; k < power; ++k) most *= kMostChange / kSafety;
-  if (error * most <= allowed) return step * kMostChange;
-  return step * std::max(kSafety * rootOf(allowed / error, power), kLeastChange);
+double StepChoice::stepFor(double step, double error, int columns, const Allowance& allowed) const {
+  const int order = power_ * (columns - 1) + 1;
+  const double asked = changeFor(error, allowed.error, order - (allowed_ == Allowed::kOfTime));
+  return step * std::max(asked, changeFor(error, allowed.finest, order + allowed.falls));
 }
 
-void StepChoice::reject(double step, double error, double allowed) {
+void StepChoice::reject(double step, double error, const Allowance& allowed) {
   rejected_ = true;
   if (error < 1e300) {
     wanted_ = std::min(stepFor(step, error, columns_, allowed), 0.7 * step);
@@ -64,7 +71,8 @@ void StepChoice::reject(double step, double error, double allowed) {
   }
 }
 
-void StepChoice::accept(double step, double error, double coarser, double allowed, double time) {
+void StepChoice::accept(double step, double error, double coarser, const Allowance& allowed,
+                        double time) {
   bound_ *= kRegained;
   resolves_ = true;
   lost_ = 0;

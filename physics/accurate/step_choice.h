@@ -20,6 +20,14 @@ class StepChoice {
   enum class Rows : char { kInTurn, kSideBySide };
   // What is allowed of a step: always the same, or in proportion to its time.
   enum class Allowed : char { kOfStep, kOfTime };
+  // `error`: what the accuracy allows of a step; it may be `finest`, though, which is what numbers
+  // leave of one: that goes with the step to the power -falls.
+  struct Allowance {
+    double error;
+    double finest = 0;
+    int falls = 0;
+    double most() const { return error > finest ? error : finest; }
+  };
   // With no fewer than `least` columns, and no more than `most`.
   StepChoice(int power, int least, int most, Allowed allowed, Rows rows)
       : power_(power),
@@ -37,9 +45,9 @@ class StepChoice {
   // One more column, for the step that is being made. False: there are no more.
   bool extend() { return columns_ < most_ && ++columns_ > 0; }
   // A step that errs by too much; an infinite error is one that failed.
-  void reject(double step, double error, double allowed);
+  void reject(double step, double error, const Allowance& allowed);
   // `coarser`: the error of one column less.
-  void accept(double step, double error, double coarser, double allowed, double time);
+  void accept(double step, double error, double coarser, const Allowance& allowed, double time);
   // What rests is resolved by any step.
   void rest() {
     resolves_ = true;
@@ -63,7 +71,7 @@ class StepChoice {
 
  private:
   double workFor(double step, int columns, double time) const;
-  double stepFor(double step, double error, int columns, double allowed) const;
+  double stepFor(double step, double error, int columns, const Allowance& allowed) const;
   int power_, least_, most_, columns_;
   Allowed allowed_;
   Rows rows_;

@@ -341,7 +341,7 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
     ++trial.told.rejected;
     goBack(w.bodies, batch);
     if (isKnown) {
-      choice.reject(trial.whole, trial.error, allowed);
+      choice.reject(trial.whole, trial.error, {allowed});
     } else {
       choice.giveUp(0);  // one may resolve it again
     }
@@ -353,7 +353,7 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
     choice.rest();
   } else if (!trial.hits) {  // a jump is no smoother in shorter substeps
     takeBest(w, trial);
-    choice.accept(trial.whole, trial.error, trial.coarser, allowed, dt);
+    choice.accept(trial.whole, trial.error, trial.coarser, {allowed}, dt);
   }
   noteMotion(w, trial);
   if (isSmall) trial.told.order = std::max(trial.told.order, trial.isOneRow ? 1 : choice.columns());

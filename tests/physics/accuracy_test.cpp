@@ -512,6 +512,33 @@ TEST(Accuracy, RemembersWhichStepsFail) {
   EXPECT_LT(report.rejected, report.accepted / 5);
 }
 
+// Steps so short that numbers resolve them no better than this are left again: what is allowed of
+// them is not allowed of longer ones.
+TEST(Accuracy, GrowsOutOfStepsThatRoundingsBound) {
+  StepChoice choice(2, 2, 7, StepChoice::Allowed::kOfTime, StepChoice::Rows::kInTurn);
+  const double time = 0.1;
+  int accepted = 0, rejected = 0;
+  for (double left = time; left > 0 && accepted < 1000;) {
+    const int columns = choice.columns();
+    const double step = choice.next(left, time), rounding = 5e-16 / step;
+    const auto errorOf = [&](int k) {
+      return step > 0.06 ? 1e301 : std::pow(step / 0.1, 2 * k - 1) + rounding;  // else it fails
+    };
+    const StepChoice::Allowance allowed{1e-6 * step, 200 * columns * rounding, 1};
+    if (errorOf(columns) > allowed.most()) {
+      choice.reject(step, errorOf(columns), allowed);
+      ++rejected;
+      continue;
+    }
+    choice.accept(step, errorOf(columns), errorOf(columns - 1), allowed, time);
+    left = step == left ? 0 : left - step;
+    ++accepted;
+  }
+  std::printf("%d steps, %d tried in vain\n", accepted, rejected);
+  EXPECT_LT(accepted, 20);
+  EXPECT_LT(rejected, 8);
+}
+
 // It does not hop on from step to step, as it would where its contact gave way by h^2 and the
 // tableau took that for motion.
 TEST(Accuracy, OfWhatLandsIsThatItRests) {
