@@ -92,22 +92,26 @@ ChartSeries marks(const std::vector<AskedPoint>& points, Verdict verdict, const 
 
 // ". Of those whose case measures the motion, ..."; empty: nothing was set by hand.
 std::string byHandText(const std::vector<AskedPoint>& points) {
-  int all = 0;
-  std::string dear;
+  int all = 0, dear = 0;
+  std::vector<std::pair<std::string, std::vector<double>>> cases;  // of those that are dear
   for (const AskedPoint& p : points) {
     all += p.overByHand > 0 ? 1 : 0;
     if (p.overByHand <= kDear) continue;
-    dear += fmt::format("{}{} at {} ({:.2g})", dear.empty() ? ": " : ", ", p.study,
-                        accuracyText(p.asked), p.overByHand);
+    ++dear;
+    if (cases.empty() || cases.back().first != p.study) cases.push_back({p.study, {}});
+    cases.back().second.push_back(p.overByHand);
   }
   if (all == 0) return "";
-  const auto dearer = std::count_if(points.begin(), points.end(),
-                                    [](const AskedPoint& p) { return p.overByHand > kDear; });
-  return fmt::format(
+  std::string text = fmt::format(
       ". Of those whose case measures the motion, settings of ours chosen by hand deliver {} as "
-      "well; "
-      "{} cost at most {:g} times the cheapest of those, {} more{}",
-      all, all - dearer, kDear, dearer, dear);
+      "well; {} cost at most {:g} times the cheapest of those, {} more",
+      all, all - dear, kDear, dear);
+  for (const auto& [name, ratios] : cases) {
+    const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+    text += fmt::format("{}{} ({}{:.2g})", name == cases.front().first ? ": " : ", ", name,
+                        ratios.size() > 1 ? fmt::format("{:.2g} to ", *least) : "", *most);
+  }
+  return text;
 }
 
 void addLine(double times, const std::string& title, const std::string& dash, Chart& chart) {

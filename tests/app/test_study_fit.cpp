@@ -130,7 +130,7 @@ TEST(Asked, CostsAreComparedWithSettingsChosenByHandThatDeliverTheSame) {
   EXPECT_EQ(askedText(asked),
             "3 of 3 points (100 %) are within 3 times the accuracy that they were asked for. Of "
             "those whose case measures the motion, settings of ours chosen by hand deliver 2 as "
-            "well; 1 cost at most 1.5 times the cheapest of those, 1 more: case at 1e-2 (2)");
+            "well; 1 cost at most 1.5 times the cheapest of those, 1 more: case (2)");
   CaseResults gaps = results;
   gaps.study.quantities.resize(1);
   gaps.study.quantities[0].metric = "joint_error";
