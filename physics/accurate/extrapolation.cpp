@@ -19,7 +19,7 @@ constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one
 
 Extrapolation::Extrapolation(SymmetricStep step)
     : step_(std::move(step)),
-      choice_(2, 2, Tableau::kMostRows, StepChoice::Allowed::kOfTime,
+      choice_(2, 2, Tableau::kMostRows,
               step_.isTree() ? StepChoice::Rows::kSideBySide : StepChoice::Rows::kInTurn) {}
 
 // n steps from where it stands, to row_.
@@ -92,7 +92,7 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     // A step ends where a table has a point: no order counts across one.
     const double whole = nextPart(world.kinds, from, rows.step, least);
     // Where joints close no further than that, speeds of a step are off by it over the step.
-    const StepChoice::Allowance allowed{inAll * (whole / time),
+    const StepChoice::Allowance allowed{inAll * (whole / time), 1,
                                         isTree ? rows.noise : kFinest * lasting_ * columns / whole,
                                         isTree ? 0 : 1};
     const double closed = kClosed * allowed.most() / (columns * columns);

@@ -58,7 +58,7 @@ double StepChoice::next(double left, double time) const {
 
 double StepChoice::stepFor(double step, double error, int columns, const Allowance& allowed) const {
   const int order = power_ * (columns - 1) + 1;
-  const double asked = changeFor(error, allowed.error, order - (allowed_ == Allowed::kOfTime));
+  const double asked = changeFor(error, allowed.error, order - allowed.grows);
   return step * std::max(asked, changeFor(error, allowed.finest, order + allowed.falls));
 }
 

@@ -18,24 +18,18 @@ class StepChoice {
   // Rows of a tableau are made one after the other, or side by side (lane_rows.h). All here is told
   // of rows of 1, 2, ... steps.
   enum class Rows : char { kInTurn, kSideBySide };
-  // What is allowed of a step: always the same, or in proportion to its time.
-  enum class Allowed : char { kOfStep, kOfTime };
-  // `error`: what the accuracy allows of a step; it may be `finest`, though, which is what numbers
-  // leave of one: that goes with the step to the power -falls.
+  // Of a step: what the accuracy allows, which goes with it to the power `grows`, but no less than
+  // what numbers leave of it, which goes with it to the power -falls.
   struct Allowance {
     double error;
+    int grows = 0;
     double finest = 0;
     int falls = 0;
     double most() const { return error > finest ? error : finest; }
   };
   // With no fewer than `least` columns, and no more than `most`.
-  StepChoice(int power, int least, int most, Allowed allowed, Rows rows)
-      : power_(power),
-        least_(least),
-        most_(most),
-        columns_(least),
-        allowed_(allowed),
-        rows_(rows) {}
+  StepChoice(int power, int least, int most, Rows rows)
+      : power_(power), least_(least), most_(most), columns_(least), rows_(rows) {}
 
   int columns() const { return columns_; }
   // s: all of `time`, where nothing is known.
@@ -73,7 +67,6 @@ class StepChoice {
   double workFor(double step, int columns, double time) const;
   double stepFor(double step, double error, int columns, const Allowance& allowed) const;
   int power_, least_, most_, columns_;
-  Allowed allowed_;
   Rows rows_;
   bool resolves_ = false;
   bool rejected_ = false;  // the step before, in the same frame

@@ -65,8 +65,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   inertias.resize(bodies);
   spins.resize(bodies);
   meanSpins.resize(bodies, Vec3::Zero());
-  choices.resize(bodies, StepChoice(1, 2, kMostTouchingColumns, StepChoice::Allowed::kOfStep,
-                                    StepChoice::Rows::kInTurn));
+  choices.resize(bodies, StepChoice(1, 2, kMostTouchingColumns, StepChoice::Rows::kInTurn));
   oneRowErrs.resize(bodies, std::numeric_limits<double>::infinity());
   accelerated.resize(bodies);
   load.resize(bodies);

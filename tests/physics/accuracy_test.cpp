@@ -515,7 +515,7 @@ TEST(Accuracy, RemembersWhichStepsFail) {
 // Steps so short that numbers resolve them no better than this are left again: what is allowed of
 // them is not allowed of longer ones.
 TEST(Accuracy, GrowsOutOfStepsThatRoundingsBound) {
-  StepChoice choice(2, 2, 7, StepChoice::Allowed::kOfTime, StepChoice::Rows::kInTurn);
+  StepChoice choice(2, 2, 7, StepChoice::Rows::kInTurn);
   const double time = 0.1;
   int accepted = 0, rejected = 0;
   for (double left = time; left > 0 && accepted < 1000;) {
@@ -524,7 +524,7 @@ TEST(Accuracy, GrowsOutOfStepsThatRoundingsBound) {
     const auto errorOf = [&](int k) {
       return step > 0.06 ? 1e301 : std::pow(step / 0.1, 2 * k - 1) + rounding;  // else it fails
     };
-    const StepChoice::Allowance allowed{1e-6 * step, 200 * columns * rounding, 1};
+    const StepChoice::Allowance allowed{1e-6 * step, 1, 200 * columns * rounding, 1};
     if (errorOf(columns) > allowed.most()) {
       choice.reject(step, errorOf(columns), allowed);
       ++rejected;
