@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/constraints/constraint_response.h"
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {

@@ -17,24 +17,20 @@ Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
   Mesh mesh;
   std::map<BodyId, int> place;
   std::vector<std::array<BodyId, 2>> joined;
-  int kindPlace = 0;
-  forEachKind(kinds, [&](const auto& kind) {
-    using C = typename std::decay_t<decltype(kind)>::Item;
-    for (const JointRef& ref : refs) {
-      if (ref.kind != kindPlace) continue;
-      const auto& bodies = kind.set.items[ref.item].bodies;
-      mesh.points = mesh.points || (C::kBodies != 1 && !isAngular<C>());
-      for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (masses[bodies[i]].m > 0) place.insert({bodies[i], 0});
-        for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-          if (C::kBodies == kMany && j > i + 1) break;  // a row of its own, eliminated last
-          if (masses[bodies[i]].m > 0 && masses[bodies[j]].m > 0) {
-            joined.push_back({bodies[i], bodies[j]});
-          }
+  SweptRows rows;
+  for (const JointRef& ref : refs) add(rows, kinds, ref);
+  forEachRow(rows, [&](const SweptItem& swept) {
+    const std::vector<BodyId>& bodies = swept.bodies;
+    mesh.points = mesh.points || (bodies.size() != 1 && !swept.turns);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (masses[bodies[i]].m > 0) place.insert({bodies[i], 0});
+      for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+        if (swept.isLength && j > i + 1) break;  // a row of its own, eliminated last
+        if (masses[bodies[i]].m > 0 && masses[bodies[j]].m > 0) {
+          joined.push_back({bodies[i], bodies[j]});
         }
       }
     }
-    ++kindPlace;
   });
   int count = 0;
   for (auto& [body, index] : place) index = count++;
@@ -53,10 +49,10 @@ namespace {
 
 // A of a total length as that of its pieces, one after the other: its own comes to nothing where
 // they are in line.
-double ownOfPieces(const RopeLength& item, std::span<const JointMass> masses) {
+double ownOfPieces(const SweptItem& swept, std::span<const JointMass> masses) {
   double sum = 0;
-  for (std::size_t p = 1; p < item.bodies.size(); ++p) {
-    sum += masses[item.bodies[p - 1]].inverse + masses[item.bodies[p]].inverse;
+  for (std::size_t p = 1; p < swept.bodies.size(); ++p) {
+    sum += masses[swept.bodies[p - 1]].inverse + masses[swept.bodies[p]].inverse;
   }
   return sum;
 }
@@ -65,24 +61,15 @@ double ownOfPieces(const RopeLength& item, std::span<const JointMass> masses) {
 
 Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
                        std::span<const InverseMass> masses, bool direct) {
-  int place = 0;
   size_ = refs.size();
-  forEachKind(kinds, [&](const auto& kind) {
-    using C = typename std::decay_t<decltype(kind)>::Item;
-    for (const JointRef& ref : refs) {
-      if (ref.kind != place) continue;
-      std::get<std::vector<SweptRow<C>>>(rows_).emplace_back().item = ref.item;
-      const auto& bodies = kind.set.items[ref.item].bodies;
-      for (const BodyId body : bodies) {
-        if (masses[body].m > 0) bodies_.push_back(body);
-      }
-      if constexpr (std::is_same_v<C, Link> || std::is_same_v<C, RopeLength>) {
-        for (std::size_t p = 1; p < bodies.size(); ++p) {
-          pieces_.push_back({bodies[p - 1], bodies[p]});
-        }
-      }
+  for (const JointRef& ref : refs) add(rows_, kinds, ref);
+  forEachRow(rows_, [&](const SweptItem& swept) {
+    for (const BodyId body : swept.bodies) {
+      if (masses[body].m > 0) bodies_.push_back(body);
     }
-    ++place;
+    for (std::size_t p = 1; swept.isOfPieces() && p < swept.bodies.size(); ++p) {
+      pieces_.push_back({swept.bodies[p - 1], swept.bodies[p]});
+    }
   });
   std::sort(bodies_.begin(), bodies_.end());
   bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
@@ -103,20 +90,20 @@ void Deformable::findImplied(const Kinds& kinds) {
   const auto keyOf = [&](BodyId a, BodyId b) {
     return std::array<int, 2>{std::min(a, b), std::max(a, b)};
   };
-  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>&, double) {
-    if constexpr (std::is_same_v<C, Link>) {
-      if (item.compliance == 0) lengths[keyOf(item.bodies[0], item.bodies[1])] = item.length;
-    }
+  forEachRow(rows_, [&](const SweptItem& swept) {
+    if (!swept.isLink) return;
+    const Link& item = std::get<Kind<LinkDef, Link>>(kinds).set.items[swept.ref.item];
+    if (item.compliance == 0) lengths[keyOf(swept.bodies[0], swept.bodies[1])] = item.length;
   });
-  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (std::is_same_v<C, RopeLength>) {
-      double sum = 0;
-      for (std::size_t p = 1; p < item.bodies.size(); ++p) {
-        const auto found = lengths.find(keyOf(item.bodies[p - 1], item.bodies[p]));
-        sum += found == lengths.end() ? kUnbounded : found->second;
-      }
-      swept.isImplied = item.rope && sum <= (1 + kRedundancy) * item.length;
+  forEachRow(rows_, [&](SweptItem& swept) {
+    if (!swept.isLength) return;
+    double sum = 0;
+    for (std::size_t p = 1; p < swept.bodies.size(); ++p) {
+      const auto found = lengths.find(keyOf(swept.bodies[p - 1], swept.bodies[p]));
+      sum += found == lengths.end() ? kUnbounded : found->second;
     }
+    const auto& item = std::get<Kind<RopeLengthDef, RopeLength>>(kinds).set.items[swept.ref.item];
+    swept.isImplied = item.rope && sum <= (1 + kRedundancy) * item.length;
   });
 }
 
@@ -129,39 +116,34 @@ void Deformable::evaluate(const JointStage& stage, bool first) {
 }
 
 void Deformable::evaluateRows(const JointStage& stage, bool first) {
-  const Kinds& kinds = stage.kinds;
   const Configuration at = {stage.pose, stage.start, stage.h};
   const auto masses = stage.masses;
   const auto moved = stage.moved;
   const double longer = first && before_ > 0 ? stage.h / before_ : 1;
   before_ = stage.h;
-  const auto prepare = [&]<class C>(const C& item, SweptRow<C>& swept, double regularisation) {
-    item.evaluate(at, swept.row);
+  const auto prepare = [&]<int kRows>(SweptRow<kRows>& swept) {
+    swept::evaluate(stage.kinds, at, Seen::kAll, many_, swept);
     swept.pulled = longer * longer * swept.lambda;
     if (first) swept.lambda.setZero();
     swept.next = swept.lambda;
     swept.swept = false;
-    if (!swept.row.active || (points_ && swept.isImplied)) return;
-    swept.constant = errorOf<C>(swept);
-    invert<C>(swept, respond(item, swept, masses), Force<C> ? 0 : regularisation);
-    if constexpr (std::is_same_v<C, RopeLength>) {
-      if (!swept.isImplied) swept.own = ownOfPieces(item, masses);
-    }
+    if (!swept.active || (points_ && swept.isImplied)) return;
+    invert(swept, respond(swept, masses), swept.regularisation);
+    if (swept.isLength && !swept.isImplied) swept.own = ownOfPieces(swept, masses);
     if (swept.isLoad) {
       swept.swept = false;
     } else {
-      swept.constant -= along(item, swept, moved);
+      swept.constant -= along(swept, moved);
     }
   };
-  const auto load = [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if (!swept.row.active || !swept.isLoad) return;
-    swept.lambda = clamped<C>(swept, swept.constant);
-    give(item, swept, swept.lambda, moved);
+  const auto load = [&]<int kRows>(SweptRow<kRows>& swept) {
+    if (!swept.active || !swept.isLoad) return;
+    swept.lambda = clamped(swept, swept.constant);
+    give(swept, swept.lambda, moved);
   };
-  kinds_ = &kinds;
   if (factor_) takeMasses(masses);
-  forEachRow(rows_, kinds, prepare);
-  if (first) forEachRow(rows_, kinds, load);
+  forEachRow(rows_, prepare);
+  if (first) forEachRow(rows_, load);
   if (points_) takeStiffness(masses, first);
 }
 
@@ -179,12 +161,12 @@ void Deformable::solvePositions(const JointStage& stage, double step, double pus
 void Deformable::sweepPositions(const JointStage& stage) {
   if (factor_) return;
   bool any = false;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
     if (!swept.swept || swept.isAtOnce) return;
     any = true;
-    change(item, swept,
-           typename Set<C>::Vector(swept.constant + along(item, swept, stage.moved) +
-                                   swept.alpha * swept.lambda),
+    change(swept,
+           typename SweptRow<kRows>::Vector(swept.constant + along(swept, stage.moved) +
+                                            swept.alpha * swept.lambda),
            stage.moved);
   });
   if (points_ && any) solvePoints(true, false, stage.masses, stage.moved);
@@ -195,13 +177,13 @@ void Deformable::prepareVelocities(const Kinds& kinds, const Configuration& at,
                                    std::span<const Displacement> moved) {
   if (factor_) takeMasses(masses);
   if (points_) preparePointVelocities(moved);
-  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
     if (swept.isAtOnce) return;  // as they are
     swept.swept = swept.swept && !givesWay(swept) && !isSlack(swept);
     if (!swept.swept) return;
-    item.evaluate(at, swept.row);
-    swept.swept = swept.row.active;
-    if (swept.swept) invert<C>(swept, respond(item, swept, masses), 0);
+    swept::evaluate(kinds, at, Seen::kGradients, many_, swept);
+    swept.swept = swept.active;
+    if (swept.swept) invert(swept, respond(swept, masses), 0);
   });
 }
 
@@ -209,30 +191,29 @@ void Deformable::sweepVelocities(std::span<const JointMass> masses, std::span<Di
   if (factor_) return solveVelocities(moved);
   if (points_) solvePoints(false, false, masses, moved);
   bool any = false;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
     if (!swept.swept || swept.isAtOnce) return;
     any = true;
-    change(item, swept, along(item, swept, moved), moved);
+    change(swept, along(swept, moved), moved);
   });
   if (points_ && any) solvePoints(false, false, masses, moved);
 }
 
 double Deformable::strain(const Kinds& kinds, const Configuration& at) {
   double sum = 0, load = 0;
-  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (!Force<C> && C::kLinear) {
-      if (!swept.row.active || !swept.alpha.isZero(0) || swept.lambda.isZero(0)) return;
-      double extent = 0;
-      for (const BodyId i : item.bodies) {
-        extent = std::max(extent, (at.now[i].x - at.now[item.bodies[0]].x).norm());
-      }
-      if (!(extent > 0)) return;
-      item.evaluate(at, swept.row);
-      const double size = swept.row.linear[0].norm(), off = swept.row.c.norm() / extent;
-      if (!(size > 0)) return;
-      sum += swept.lambda.norm() * off * off / size;
-      load += swept.lambda.norm() * size;
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
+    if (swept.isForce || !swept.moves || !swept.active) return;
+    if (!swept.alpha.isZero(0) || swept.lambda.isZero(0)) return;
+    double extent = 0;
+    for (const BodyId i : swept.bodies) {
+      extent = std::max(extent, (at.now[i].x - at.now[swept.bodies[0]].x).norm());
     }
+    if (!(extent > 0)) return;
+    swept::evaluate(kinds, at, Seen::kGradients, many_, swept);
+    const double size = swept.linear[0].j.norm(), off = swept.c.norm() / extent;
+    if (!(size > 0)) return;
+    sum += swept.lambda.norm() * off * off / size;
+    load += swept.lambda.norm() * size;
   });
   return load > 0 ? std::sqrt(sum / load) : 0;
 }
@@ -247,22 +228,18 @@ double Deformable::turn(const Configuration& at) const {
 }
 
 void Deformable::goOn(const Kinds& kinds) {
-  forEachKind(kinds, [&](const auto& kind) {
-    using C = typename std::decay_t<decltype(kind)>::Item;
-    for (SweptRow<C>& swept : std::get<std::vector<SweptRow<C>>>(rows_)) {
-      swept.lambda = kind.set.lambda[swept.item].total;
-      before_ = kind.set.lambda[swept.item].step;
-    }
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
+    const Multiplier last = readMultiplier(kinds, swept.ref);
+    swept.lambda = last.total.template head<kRows>();
+    before_ = last.dt;
   });
 }
 
 void Deformable::finish(Kinds& kinds, double dt) const {
-  forEachKind(kinds, [&](auto& kind) {
-    using C = typename std::decay_t<decltype(kind)>::Item;
-    for (const SweptRow<C>& swept : std::get<std::vector<SweptRow<C>>>(rows_)) {
-      kind.set.lambda[swept.item].total = swept.lambda;
-      kind.set.lambda[swept.item].step = dt;
-    }
+  forEachRow(rows_, [&]<int kRows>(const SweptRow<kRows>& swept) {
+    Vec3 total = Vec3::Zero();
+    total.head<kRows>() = swept.lambda;
+    writeMultiplier(kinds, swept.ref, total, dt);
   });
 }
 

@@ -151,8 +151,7 @@ class Deformable {
   void takePressed();
   void factorizePoints();
   void takeStiffness(std::span<const JointMass> masses, bool first);
-  template <class C>
-  Vec3 apartBy(const SweptRow<C>& swept) const;
+  Vec3 apartBy(const SweptItem& swept) const;
   double shareOfChange();
   void turnFrom(std::span<const Displacement> moved);
   Vec3 turnedBy(int place, std::span<const Displacement> moved) const;
@@ -166,7 +165,7 @@ class Deformable {
 
   // Of total lengths beside them.
   struct FreeLength {
-    SweptRow<RopeLength>* swept;
+    SweptRow<1>* swept;
     PointFactor::Length* length;
     double error;  // c + J (u - u_0)
   };
@@ -176,7 +175,7 @@ class Deformable {
   void layOutLengths(std::vector<std::array<int, 2>>& pieces);
   void takeLengths(bool first);
   void aimAtLengths(std::span<const Displacement> moved);
-  double changeAlong(const SweptRow<RopeLength>& swept, const PointFactor::Length& length,
+  double changeAlong(const SweptRow<1>& swept, const PointFactor::Length& length,
                      std::span<const Vec3> change) const;
   void askFactor(std::span<const FreeLength> lengths);
   void solveLengths(std::span<const Displacement> moved);
@@ -195,8 +194,8 @@ class Deformable {
   Displacement changeOf(BodyId body) const;
   bool chooseContacts(bool positions, bool first, std::span<const Displacement> moved);
   void aimAtPositions(std::span<const Displacement> moved);
-  template <class C>
-  typename Set<C>::Vector changeAlong(const C& item, const SweptRow<C>& swept) const;
+  template <int kRows>
+  typename SweptRow<kRows>::Vector changeAlong(const SweptRow<kRows>& swept) const;
   double changeAlong(const SoftRow& row) const;
   void solveProgram(bool first, std::span<const Displacement> moved);
   bool chooseAgain(bool isLate, std::span<const Displacement> moved);
@@ -206,12 +205,9 @@ class Deformable {
   void solveVelocities(std::span<Displacement> moved);
   void factorize(bool positions);
   void solveFactor();
-  template <class C>  // what keeps the factor regular is a compliance of it
-  static bool givesInLine(const SweptRow<C>& swept) {
-    return std::is_same_v<C, RopeLength> && !swept.isImplied;
-  }
-  template <class C>
-  double leastOf(const SweptRow<C>& swept) const;
+  // What keeps the factor regular is a compliance of it.
+  static bool givesInLine(const SweptItem& swept) { return swept.isLength && !swept.isImplied; }
+  double leastOf(const SweptItem& swept) const;
   template <class F>
   void emit(bool positions, F&& entry);
   double errorNow(const SoftRow& row, bool positions, std::span<const Displacement> moved) const;
@@ -238,7 +234,7 @@ class Deformable {
   std::vector<BodyId> bodies_;  // those that move, sorted
   std::vector<BodyId> solved_;  // those, and bodies that touch them: what a factor solves for
   std::size_t size_ = 0;
-  const Kinds* kinds_ = nullptr;  // of the last prepare
+  Row<kMany, 1> many_;  // to work in
 };
 
 }  // namespace physics

@@ -10,10 +10,10 @@ using namespace swept;
 namespace {
 
 // What a row that may be held is off by, at what the bodies have moved by.
-template <class C>
-typename Set<C>::Vector rowError(const C& item, const SweptRow<C>& swept, bool positions,
-                                 std::span<const Displacement> moved) {
-  const typename Set<C>::Vector rate = along(item, swept, moved);
+template <int kRows>
+typename SweptRow<kRows>::Vector rowError(const SweptRow<kRows>& swept, bool positions,
+                                          std::span<const Displacement> moved) {
+  const typename SweptRow<kRows>::Vector rate = along(swept, moved);
   return positions ? swept.constant + rate + swept.alpha * swept.lambda : rate;
 }
 
@@ -24,15 +24,15 @@ typename Set<C>::Vector rowError(const C& item, const SweptRow<C>& swept, bool p
 bool Deformable::holdAtBounds(std::span<Displacement> moved) {
   bool any = false;
   int at = unknowns_;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
     const int first = at;
-    at += C::kRows;
-    if (!swept.swept || swept.held || !isBounded<C>(swept)) return;
-    using Vector = typename Set<C>::Vector;
-    const Vector wanted = swept.lambda - factor_->solution.template segment<C::kRows>(first);
-    const Vector inside = clamped<C>(swept, wanted);
+    at += kRows;
+    if (!swept.swept || swept.held || !isBounded(swept)) return;
+    using Vector = typename SweptRow<kRows>::Vector;
+    const Vector wanted = swept.lambda - factor_->solution.template segment<kRows>(first);
+    const Vector inside = clamped<kRows>(swept, wanted);
     if (inside == wanted) return;
-    give(item, swept, Vector(inside - swept.lambda), moved);
+    give(swept, Vector(inside - swept.lambda), moved);
     swept.lambda = inside;
     swept.held = any = true;
   });
@@ -70,12 +70,12 @@ bool Deformable::chooseContacts(bool positions, bool first, std::span<const Disp
 void Deformable::chooseFree(bool positions, bool first, std::span<const Displacement> moved) {
   factor_->stale = chooseContacts(positions, first, moved) || factor_->stale;
   if (!positions) return;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if (!swept.swept || !isBounded<C>(swept)) return;
-    using Vector = typename Set<C>::Vector;
-    const Vector wanted = swept.lambda - rowError(item, swept, true, moved);
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
+    if (!swept.swept || !isBounded(swept)) return;
+    using Vector = typename SweptRow<kRows>::Vector;
+    const Vector wanted = swept.lambda - rowError(swept, true, moved);
     const bool held = swept.lambda.isZero(0) && swept.pulled.isZero(0) &&
-                      clamped<C>(swept, wanted) == swept.lambda;
+                      clamped<kRows>(swept, wanted) == swept.lambda;
     factor_->stale = factor_->stale || held != swept.held;
     swept.held = held;
   });
@@ -94,27 +94,27 @@ void Deformable::aimAtPositions(std::span<const Displacement> moved) {
     }
   }
   int at = unknowns_;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
     if (swept.swept && !swept.held) {
-      f.right.template segment<C::kRows>(at) =
+      f.right.template segment<kRows>(at) =
           (repeats_ || givesInLine(swept) ? 0 : kRedundancy) * swept.own * swept.lambda -
-          swept.constant - along(item, swept, moved);
+          swept.constant - along(swept, moved);
     } else if (swept.swept && !swept.next.isZero(0)) {
-      for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-        const int place = placeOf(item.bodies[b]);
+      for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+        const int place = placeOf(swept.bodies[b]);
         if (place < 0) continue;
         const int to = unknown_[place];
-        if constexpr (C::kLinear) {
-          f.right.segment<3>(to) += swept.row.linear[b].transpose() * swept.next;
+        if (swept.moves) {
+          f.right.segment<3>(to) += swept.linear[b].j.transpose() * swept.next;
         }
-        if constexpr (isAngular<C>()) {
+        if (swept.turns) {
           if (turns_[place]) {
-            f.right.segment<3>(to + 3) += swept.row.angular[b].transpose() * swept.next;
+            f.right.segment<3>(to + 3) += swept.angular[b].j.transpose() * swept.next;
           }
         }
       }
     }
-    at += C::kRows;
+    at += kRows;
   });
   for (const SoftRow* row : contacts_) {
     f.right[at] =
@@ -124,17 +124,17 @@ void Deformable::aimAtPositions(std::span<const Displacement> moved) {
 }
 
 // The row's J times d.
-template <class C>
-typename Set<C>::Vector Deformable::changeAlong(const C& item, const SweptRow<C>& swept) const {
-  typename Set<C>::Vector sum = Set<C>::Vector::Zero();
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const int place = placeOf(item.bodies[b]);
+template <int kRows>
+typename SweptRow<kRows>::Vector Deformable::changeAlong(const SweptRow<kRows>& swept) const {
+  typename SweptRow<kRows>::Vector sum = SweptRow<kRows>::Vector::Zero();
+  for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+    const int place = placeOf(swept.bodies[b]);
     if (place < 0) continue;
     const auto& d = factor_->solution;
-    if constexpr (C::kLinear) sum += swept.row.linear[b] * d.template segment<3>(unknown_[place]);
-    if constexpr (isAngular<C>()) {
+    if (swept.moves) sum += swept.linear[b].j * d.template segment<3>(unknown_[place]);
+    if (swept.turns) {
       if (turns_[place]) {
-        sum += swept.row.angular[b] * d.template segment<3>(unknown_[place] + 3);
+        sum += swept.angular[b].j * d.template segment<3>(unknown_[place] + 3);
       }
     }
   }
@@ -171,23 +171,23 @@ double Deformable::changeAlong(const SoftRow& row) const {
 bool Deformable::chooseAgain(bool isLate, std::span<const Displacement> moved) {
   bool any = false;
   int at = unknowns_;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
     const int first = at;
-    at += C::kRows;
+    at += kRows;
     if (!swept.swept) return;
-    using Vector = typename Set<C>::Vector;
+    using Vector = typename SweptRow<kRows>::Vector;
     if (swept.held) {
-      const Vector error = swept.constant + along(item, swept, moved) + changeAlong(item, swept) +
-                           swept.alpha * swept.next;
-      if (clamped<C>(swept, Vector(swept.next - error)) == swept.next) return;
+      const Vector error =
+          swept.constant + along(swept, moved) + changeAlong(swept) + swept.alpha * swept.next;
+      if (clamped<kRows>(swept, Vector(swept.next - error)) == swept.next) return;
       swept.held = false;
       any = true;
       return;
     }
-    const Vector wanted = -factor_->solution.template segment<C::kRows>(first);
+    const Vector wanted = -factor_->solution.template segment<kRows>(first);
     swept.next = wanted;
-    if (!isBounded<C>(swept)) return;
-    swept.next = clamped<C>(swept, wanted);
+    if (!isBounded(swept)) return;
+    swept.next = clamped<kRows>(swept, wanted);
     if (swept.next != wanted) swept.held = any = true;
   });
   for (SoftRow* row : contacts_) {
@@ -226,7 +226,7 @@ void Deformable::takePositions(double share, std::span<Displacement> moved) {
     moved[solved_[k]].u += share * f.solution.segment<3>(unknown_[k]);
     if (turns_[k]) moved[solved_[k]].theta += share * f.solution.segment<3>(unknown_[k] + 3);
   }
-  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
     if (swept.swept) swept.lambda += share * (swept.next - swept.lambda);
   });
   for (SoftRow* row : contacts_) row->lambda += share * (row->next - row->lambda);
@@ -290,11 +290,11 @@ void Deformable::solveVelocities(std::span<Displacement> moved) {
     if (f.stale) factorize(positions);
     f.right.setZero();
     int at = unknowns_;
-    forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+    forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
       if (swept.swept && !swept.held) {
-        f.right.template segment<C::kRows>(at) = -rowError(item, swept, positions, moved);
+        f.right.template segment<kRows>(at) = -rowError(swept, positions, moved);
       }
-      at += C::kRows;
+      at += kRows;
     });
     for (const SoftRow* row : contacts_) {
       f.right[at++] = row->held ? 0 : -errorNow(*row, positions, moved);
@@ -307,11 +307,11 @@ void Deformable::solveVelocities(std::span<Displacement> moved) {
     if (turns_[k]) moved[solved_[k]].theta += f.solution.segment<3>(unknown_[k] + 3);
   }
   int at = unknowns_;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
     if (swept.swept && !swept.held) {
-      swept.lambda -= f.solution.template segment<C::kRows>(at);
+      swept.lambda -= f.solution.template segment<kRows>(at);
     }
-    at += C::kRows;
+    at += kRows;
   });
   for (SoftRow* row : contacts_) {
     const double change = -f.solution[at++];

@@ -66,8 +66,7 @@ void Deformable::takeMasses(std::span<const JointMass> masses) {
 }
 
 // What a row gives way by besides alpha.
-template <class C>
-double Deformable::leastOf(const SweptRow<C>& swept) const {
+double Deformable::leastOf(const SweptItem& swept) const {
   return (givesInLine(swept) ? gives_ : kRedundancy) * swept.own;
 }
 
@@ -96,42 +95,41 @@ void Deformable::emit(bool positions, F&& entry) {
     }
   };
   int at = unknowns_;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
     const bool free = swept.swept && !swept.held;
-    if constexpr (std::is_same_v<C, Link> || std::is_same_v<C, RopeLength>) {
-      const double pulls = positions && swept.row.active ? -swept.pulled[0] : 0;
-      const double length =
-          (item.length + swept.row.c[0]) / static_cast<double>(item.bodies.size() - 1);
+    if constexpr (kRows == 1) {
+      const double pulls = positions && swept.active ? -swept.pulled[0] : 0;
+      const double length = swept.length / static_cast<double>(swept.bodies.size() - 1);
       Vec3 along = Vec3::Zero();
-      for (std::size_t p = 1; p < item.bodies.size(); ++p) {
-        if (swept.row.active) along += swept.row.linear[p - 1].transpose();
-        pull(item.bodies[p - 1], item.bodies[p], turningStiffness(along, pulls, length));
+      for (std::size_t p = 1; swept.isOfPieces() && p < swept.bodies.size(); ++p) {
+        if (swept.active) along += swept.linear[p - 1].j.transpose();
+        pull(swept.bodies[p - 1], swept.bodies[p], turningStiffness(along, pulls, length));
       }
     }
-    for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-      const int place = placeOf(item.bodies[b]);
+    for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+      const int place = placeOf(swept.bodies[b]);
       if (place < 0) continue;
-      for (int r = 0; r < C::kRows; ++r) {
+      for (int r = 0; r < kRows; ++r) {
         for (int j = 0; j < 3; ++j) {
-          if constexpr (C::kLinear) {
-            entry(at + r, unknown_[place] + j, free ? swept.row.linear[b](r, j) : 0);
+          if (swept.moves) {
+            entry(at + r, unknown_[place] + j, free ? swept.linear[b].j(r, j) : 0);
           }
-          if constexpr (isAngular<C>()) {
+          if (swept.turns) {
             if (turns_[place]) {
-              entry(at + r, unknown_[place] + 3 + j, free ? swept.row.angular[b](r, j) : 0);
+              entry(at + r, unknown_[place] + 3 + j, free ? swept.angular[b].j(r, j) : 0);
             }
           }
         }
       }
     }
-    for (int r = 0; r < C::kRows; ++r) {
+    for (int r = 0; r < kRows; ++r) {
       for (int j = 0; j <= r; ++j) {
         const double gives = free ? swept.alpha(r, j) : 0;
         const double least = free ? leastOf(swept) : 1;
         entry(at + r, at + j, -gives - (r == j ? least : 0));
       }
     }
-    at += C::kRows;
+    at += kRows;
   });
   for (const SoftRow* row : contacts_) {
     for (const bool second : {false, true}) {
@@ -159,8 +157,8 @@ void Deformable::factorize(bool positions) {
     emit(positions, [&](int row, int column, double) { f.entries.push_back({row, column}); });
     f.factor.layOut(f.entries);
     int rows = 0, own = 0;
-    forEachRow(rows_, *kinds_, [&]<class C>(const C&, const SweptRow<C>&, double) {
-      if constexpr (!Force<C>) rows += C::kRows;
+    forEachRow(rows_, [&]<int kRows>(const SweptRow<kRows>& swept) {
+      if (!swept.isForce) rows += kRows;
     });
     for (std::size_t k = 0; k < solved_.size(); ++k) {
       if (isOwn(solved_[k])) own += turns_[k] ? 6 : 3;

@@ -13,28 +13,24 @@ template <class F>
 void Deformable::forEachLength(F&& f) {
   if (points_->lengths.empty()) return;
   auto next = points_->lengths.begin();
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (std::is_same_v<C, RopeLength>) {
-      if (swept.isAtOnce) f(item, swept, *next++);
-    }
-  });
+  for (SweptRow<1>& swept : std::get<std::vector<SweptRow<1>>>(rows_.lists)) {
+    if (swept.isLength && swept.isAtOnce) f(swept, *next++);
+  }
 }
 
 void Deformable::takeLengthsAtOnce() {
-  forEachRow(rows_, *kinds_, [&]<class C>(const C&, SweptRow<C>& swept, double) {
-    if constexpr (std::is_same_v<C, RopeLength>) {
-      if (swept.isImplied) return;
-      swept.isAtOnce = true;
-      points_->lengths.emplace_back();
-    }
+  forEachRow(rows_, [&](SweptItem& swept) {
+    if (!swept.isLength || swept.isImplied) return;
+    swept.isAtOnce = true;
+    points_->lengths.emplace_back();
   });
 }
 
 void Deformable::layOutLengths(std::vector<std::array<int, 2>>& pieces) {
-  forEachLength([&](const RopeLength& item, SweptRow<RopeLength>&, PointFactor::Length& length) {
-    const std::size_t count = item.bodies.size();
+  forEachLength([&](SweptRow<1>& swept, PointFactor::Length& length) {
+    const std::size_t count = swept.bodies.size();
     length.place.clear();
-    for (const BodyId body : item.bodies) length.place.push_back(placeOf(body));
+    for (const BodyId body : swept.bodies) length.place.push_back(placeOf(body));
     length.turning.assign(count - 1, Mat3::Zero());
     length.given.resize(count, Vec3::Zero());
     length.push.resize(count);
@@ -45,53 +41,51 @@ void Deformable::layOutLengths(std::vector<std::array<int, 2>>& pieces) {
 }
 
 void Deformable::takeLengths(bool first) {
-  forEachLength(
-      [&](const RopeLength& item, SweptRow<RopeLength>& swept, PointFactor::Length& length) {
-        length.answer.clear();
-        if (first) std::fill(length.given.begin(), length.given.end(), Vec3::Zero());
-        std::fill(length.turning.begin(), length.turning.end(), Mat3::Zero());
-        if (!swept.swept) return;
-        const std::size_t count = item.bodies.size();
-        length.gives = swept.alpha(0, 0) + gives_ * swept.own;
-        if (first) {
-          length.held = isBounded(swept) && swept.pulled.isZero(0) && !(swept.row.c[0] > 0);
-        }
-        const double piece = (item.length + swept.row.c[0]) / static_cast<double>(count - 1);
-        Vec3 along = Vec3::Zero();
-        for (std::size_t p = 1; p < count; ++p) {
-          along += swept.row.linear[p - 1].transpose();
-          length.turning[p - 1] = turningStiffness(along, -swept.pulled[0], piece);
-        }
-      });
+  forEachLength([&](SweptRow<1>& swept, PointFactor::Length& length) {
+    length.answer.clear();
+    if (first) std::fill(length.given.begin(), length.given.end(), Vec3::Zero());
+    std::fill(length.turning.begin(), length.turning.end(), Mat3::Zero());
+    if (!swept.swept) return;
+    const std::size_t count = swept.bodies.size();
+    length.gives = swept.alpha(0, 0) + gives_ * swept.own;
+    if (first) {
+      length.held = isBounded(swept) && swept.pulled.isZero(0) && !(swept.c[0] > 0);
+    }
+    const double piece = swept.length / static_cast<double>(count - 1);
+    Vec3 along = Vec3::Zero();
+    for (std::size_t p = 1; p < count; ++p) {
+      along += swept.linear[p - 1].j.transpose();
+      length.turning[p - 1] = turningStiffness(along, -swept.pulled[0], piece);
+    }
+  });
 }
 
 void Deformable::aimAtLengths(std::span<const Displacement> moved) {
   PointFactor& f = *points_;
-  forEachLength(
-      [&](const RopeLength& item, SweptRow<RopeLength>& swept, PointFactor::Length& length) {
-        if (!swept.swept) return;
-        length.next = length.held ? -swept.lambda[0] : 0;
-        for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-          length.push[b] =
-              swept.row.linear[b].transpose() * (swept.lambda[0] + length.next) - length.given[b];
-        }
-        for (std::size_t p = 1; p < item.bodies.size(); ++p) {
-          const Vec3 by = turnedBy(length.place[p - 1], moved) - turnedBy(length.place[p], moved);
-          const Vec3 push = length.turning[p - 1] * by;
-          length.push[p - 1] -= push;
-          length.push[p] += push;
-        }
-        for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-          if (length.place[b] >= 0) f.change[length.place[b]] += length.push[b];
-        }
-      });
+  forEachLength([&](SweptRow<1>& swept, PointFactor::Length& length) {
+    if (!swept.swept) return;
+    length.next = length.held ? -swept.lambda[0] : 0;
+    for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+      length.push[b] =
+          swept.linear[b].j.transpose() * (swept.lambda[0] + length.next) - length.given[b];
+    }
+    for (std::size_t p = 1; p < swept.bodies.size(); ++p) {
+      const Vec3 by = turnedBy(length.place[p - 1], moved) - turnedBy(length.place[p], moved);
+      const Vec3 push = length.turning[p - 1] * by;
+      length.push[p - 1] -= push;
+      length.push[p] += push;
+    }
+    for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+      if (length.place[b] >= 0) f.change[length.place[b]] += length.push[b];
+    }
+  });
 }
 
-double Deformable::changeAlong(const SweptRow<RopeLength>& swept, const PointFactor::Length& length,
+double Deformable::changeAlong(const SweptRow<1>& swept, const PointFactor::Length& length,
                                std::span<const Vec3> change) const {
   double sum = 0;
   for (std::size_t b = 0; b < length.place.size(); ++b) {
-    if (length.place[b] >= 0) sum += swept.row.linear[b].dot(change[length.place[b]]);
+    if (length.place[b] >= 0) sum += swept.linear[b].j.dot(change[length.place[b]]);
   }
   return sum;
 }
@@ -104,7 +98,7 @@ void Deformable::askFactor(std::span<const FreeLength> lengths) {
     const auto& [swept, length, error] = lengths[i];
     for (std::size_t b = 0; b < length->place.size(); ++b) {
       if (length->place[b] < 0) continue;
-      f.sides[length->place[b]].col(i) += swept->row.linear[b].transpose();
+      f.sides[length->place[b]].col(i) += swept->linear[b].j.transpose();
     }
   }
   f.factor.solve(f.sides);
@@ -119,12 +113,11 @@ void Deformable::askFactor(std::span<const FreeLength> lengths) {
 void Deformable::solveLengths(std::span<const Displacement> moved) {
   PointFactor& f = *points_;
   std::vector<FreeLength> free, unasked;
-  forEachLength(
-      [&](const RopeLength& item, SweptRow<RopeLength>& swept, PointFactor::Length& length) {
-        if (!swept.swept || length.held) return;
-        free.push_back({&swept, &length, swept.constant[0] + along(item, swept, moved)[0]});
-        if (length.answer.empty()) unasked.push_back(free.back());
-      });
+  forEachLength([&](SweptRow<1>& swept, PointFactor::Length& length) {
+    if (!swept.swept || length.held) return;
+    free.push_back({&swept, &length, swept.constant[0] + along(swept, moved)[0]});
+    if (length.answer.empty()) unasked.push_back(free.back());
+  });
   const std::span<const FreeLength> all(unasked);
   for (std::size_t k = 0; k < all.size(); k += BlockFactor::kSides) {
     askFactor(all.subspan(k, std::min<std::size_t>(BlockFactor::kSides, all.size() - k)));
@@ -151,21 +144,20 @@ void Deformable::solveLengths(std::span<const Displacement> moved) {
 
 bool Deformable::chooseLengths(bool positions, std::span<const Displacement> moved) {
   bool any = false;
-  forEachLength(
-      [&](const RopeLength& item, SweptRow<RopeLength>& swept, PointFactor::Length& length) {
-        if (!swept.swept || !isBounded(swept)) return;
-        bool held = length.held;
-        if (!held) {
-          const SweptRow<RopeLength>::Vector wanted(swept.lambda[0] + length.next);
-          held = clamped(swept, wanted) != wanted;
-        } else if (positions) {
-          held = !(swept.constant[0] + along(item, swept, moved)[0] +
-                       changeAlong(swept, length, points_->change) >
-                   0);
-        }
-        any = any || held != length.held;
-        length.held = held;
-      });
+  forEachLength([&](SweptRow<1>& swept, PointFactor::Length& length) {
+    if (!swept.swept || !isBounded(swept)) return;
+    bool held = length.held;
+    if (!held) {
+      const SweptRow<1>::Vector wanted(swept.lambda[0] + length.next);
+      held = clamped<1>(swept, wanted) != wanted;
+    } else if (positions) {
+      held = !(swept.constant[0] + along(swept, moved)[0] +
+                   changeAlong(swept, length, points_->change) >
+               0);
+    }
+    any = any || held != length.held;
+    length.held = held;
+  });
   return any;
 }
 
@@ -174,39 +166,37 @@ void Deformable::takeLengthChange(double share, std::span<const JointMass> masse
   const auto change = [&](int place) -> Vec3 {
     return place < 0 ? Vec3::Zero().eval() : points_->change[place];
   };
-  forEachLength(
-      [&](const RopeLength& item, SweptRow<RopeLength>& swept, PointFactor::Length& length) {
-        if (!swept.swept) return;
-        if (!length.held) {
-          for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-            length.push[b] += swept.row.linear[b].transpose() * length.next;
-          }
-        }
-        for (std::size_t p = 1; p < item.bodies.size(); ++p) {
-          const Vec3 by = change(length.place[p - 1]) - change(length.place[p]);
-          const Vec3 push = length.turning[p - 1] * by;
-          length.push[p - 1] -= push;
-          length.push[p] += push;
-        }
-        swept.lambda[0] += share * length.next;
-        for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-          length.given[b] += share * length.push[b];
-          moved[item.bodies[b]].u += masses[item.bodies[b]].inverse * share * length.push[b];
-        }
-      });
+  forEachLength([&](SweptRow<1>& swept, PointFactor::Length& length) {
+    if (!swept.swept) return;
+    if (!length.held) {
+      for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+        length.push[b] += swept.linear[b].j.transpose() * length.next;
+      }
+    }
+    for (std::size_t p = 1; p < swept.bodies.size(); ++p) {
+      const Vec3 by = change(length.place[p - 1]) - change(length.place[p]);
+      const Vec3 push = length.turning[p - 1] * by;
+      length.push[p - 1] -= push;
+      length.push[p] += push;
+    }
+    swept.lambda[0] += share * length.next;
+    for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+      length.given[b] += share * length.push[b];
+      moved[swept.bodies[b]].u += masses[swept.bodies[b]].inverse * share * length.push[b];
+    }
+  });
 }
 
 // Those that pulled go on: J u = 0.
 void Deformable::prepareLengthVelocities() {
-  forEachLength(
-      [&](const RopeLength& item, SweptRow<RopeLength>& swept, PointFactor::Length& length) {
-        if (!swept.swept) return;
-        swept.constant.setZero();
-        length.held = length.held || isSlack(swept);
-        for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-          length.given[b] = swept.row.linear[b].transpose() * swept.lambda[0];
-        }
-      });
+  forEachLength([&](SweptRow<1>& swept, PointFactor::Length& length) {
+    if (!swept.swept) return;
+    swept.constant.setZero();
+    length.held = length.held || isSlack(swept);
+    for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+      length.given[b] = swept.linear[b].j.transpose() * swept.lambda[0];
+    }
+  });
 }
 
 }  // namespace physics

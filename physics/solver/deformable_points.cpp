@@ -10,17 +10,6 @@ using namespace swept;
 
 namespace {
 
-// Rows that see of two bodies where they are to each other, and no turn.
-template <class C>
-concept Pair = !Force<C> && C::kBodies == 2 && C::kLinear;
-
-// Rows without a bound, elastic ones as well.
-template <class C>
-bool holdsBothWays(const C& item) {
-  if constexpr (std::is_same_v<C, Link>) return !item.rope;
-  return isEquality(item);
-}
-
 // f(row, column, sign) of what a row adds to the matrix: on its two places and between them.
 template <class F>
 void forEachBlock(const std::array<int, 2>& place, F&& f) {
@@ -32,9 +21,9 @@ void forEachBlock(const std::array<int, 2>& place, F&& f) {
 }
 
 // What a row gives way by, inverse.
-template <class C>
-typename SweptRow<C>::Matrix stiffnessOf(const SweptRow<C>& swept, double gives) {
-  typename SweptRow<C>::Matrix alpha = swept.alpha;
+template <int kRows>
+typename SweptRow<kRows>::Matrix stiffnessOf(const SweptRow<kRows>& swept, double gives) {
+  typename SweptRow<kRows>::Matrix alpha = swept.alpha;
   alpha.diagonal().array() += gives * swept.own;
   return inverseOrNan(alpha);
 }
@@ -52,35 +41,29 @@ Mat3 turningStiffness(const Vec3& d, double pull, double length) {
 void Deformable::choosePoints(const Kinds& kinds, std::span<const InverseMass> masses) {
   bool any = false;  // between two that move
   const auto isPoint = [&](BodyId i) { return !(masses[i].m > 0) || masses[i].inertia.isZero(0); };
-  forEachRow(rows_, kinds, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (Pair<C>) {
-      const auto [a, b] = item.bodies;
-      swept.isAtOnce = holdsBothWays(item) && isPoint(a) && isPoint(b);
-      any = any || (swept.isAtOnce && masses[a].m > 0 && masses[b].m > 0);
-    }
+  forEachRow(rows_, [&](SweptItem& swept) {
+    if (!swept.isPair) return;
+    const BodyId a = swept.bodies[0], b = swept.bodies[1];
+    swept.isAtOnce = swept.isBothWays && isPoint(a) && isPoint(b);
+    any = any || (swept.isAtOnce && masses[a].m > 0 && masses[b].m > 0);
   });
   if (any) {
     points_ = std::make_unique<PointFactor>();
-    kinds_ = &kinds;
     findImplied(kinds);
     takeLengthsAtOnce();
     layOutPoints();
     if (points_->factor.fill() <= kMostFill) return;
     points_.reset();
   }
-  forEachRow(rows_, kinds, [&]<class C>(const C&, SweptRow<C>& swept, double) {
-    swept.isAtOnce = swept.isImplied = false;
-  });
+  forEachRow(rows_, [&](SweptItem& swept) { swept.isAtOnce = swept.isImplied = false; });
 }
 
-// f(item, swept, row) of what is solved at once, in the order of the factor's rows.
+// f(swept, row) of what is solved at once, in the order of the factor's rows.
 template <class F>
 void Deformable::forEachPair(F&& f) {
   auto next = points_->rows.begin();
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (Pair<C>) {
-      if (swept.isAtOnce) f(item, swept, *next++);
-    }
+  forEachRow(rows_, [&]<int kRows>(SweptRow<kRows>& swept) {
+    if (swept.isPair && swept.isAtOnce) f(swept, *next++);
   });
 }
 
@@ -118,13 +101,11 @@ void Deformable::layOutPoints() {
   const auto add = [&](int row, int column, const auto&) { entries.push_back({row, column}); };
   for (int k = 0; k < count; ++k) add(k, k, 0);
   std::size_t rows = 0;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (Pair<C>) {
-      if (!swept.isAtOnce) return;
-      swept.place = {placeOf(item.bodies[0]), placeOf(item.bodies[1])};
-      forEachBlock(swept.place, add);
-      ++rows;
-    }
+  forEachRow(rows_, [&](SweptItem& swept) {
+    if (!swept.isPair || !swept.isAtOnce) return;
+    swept.place = {placeOf(swept.bodies[0]), placeOf(swept.bodies[1])};
+    forEachBlock(swept.place, add);
+    ++rows;
   });
   f.rows.resize(rows);
   std::vector<std::array<int, 2>> pieces;
@@ -151,7 +132,7 @@ void Deformable::factorizePoints() {
   f.stale = false;
   f.factor.begin();
   for (const Mat3& mass : f.massive) f.factor.give(mass);
-  forEachPair([&]<class C>(const C&, SweptRow<C>& swept, PointFactor::Row& row) {
+  forEachPair([&](const SweptItem& swept, const PointFactor::Row& row) {
     forEachBlock(swept.place, [&](int, int, double sign) { f.factor.give(sign * row.stiffness); });
   });
   for (PointFactor::Length& length : f.lengths) {
@@ -177,24 +158,24 @@ void Deformable::takeStiffness(std::span<const JointMass> masses, bool first) {
     f.massive[k] = Mat3::Identity() / mass.inverse;
     if (f.turn[k] >= 0) f.massive[f.turn[k]] = inverseOrNan(mass.inertia);
   }
-  forEachPair([&]<class C>(const C& item, SweptRow<C>& swept, PointFactor::Row& row) {
+  forEachPair([&]<int kRows>(SweptRow<kRows>& swept, PointFactor::Row& row) {
     if (first) row.given.setZero();
     row.stiffness.setZero();
     row.turning.setZero();
     if (!swept.swept) return;
-    const auto& j = swept.row.linear[0];
-    if constexpr (std::is_same_v<C, Link>) {
-      const double length = item.length + swept.row.c[0];
-      row.turning = turningStiffness(j.transpose(), -swept.pulled[0], length);
+    const auto& j = swept.linear[0].j;
+    if constexpr (kRows == 1) {
+      if (swept.isLink) {
+        row.turning = turningStiffness(j.transpose(), -swept.pulled[0], swept.length);
+      }
     }
     row.stiffness = row.turning;
-    row.stiffness.noalias() += j.transpose() * stiffnessOf<C>(swept, gives_) * j;
+    row.stiffness.noalias() += j.transpose() * stiffnessOf(swept, gives_) * j;
   });
   takeLengths(first);
 }
 
-template <class C>
-Vec3 Deformable::apartBy(const SweptRow<C>& swept) const {
+Vec3 Deformable::apartBy(const SweptItem& swept) const {
   Vec3 apart = Vec3::Zero();
   const auto [a, b] = swept.place;
   if (a >= 0) apart += points_->change[a];
@@ -206,14 +187,11 @@ Vec3 Deformable::apartBy(const SweptRow<C>& swept) const {
 // nothing of where it ends.
 double Deformable::shareOfChange() {
   double most = 0;
-  forEachRow(rows_, *kinds_, [&]<class C>(const C& item, SweptRow<C>& swept, double) {
-    if constexpr (std::is_same_v<C, Link>) {
-      if (!swept.isAtOnce || !swept.swept) return;
-      const Vec3 across = swept.row.linear[0].transpose().cross(apartBy(swept));
-      const double length = item.length + swept.row.c[0];
-      if (length > 0) most = std::max(most, across.norm() / length);
-    }
-  });
+  for (const SweptRow<1>& swept : std::get<std::vector<SweptRow<1>>>(rows_.lists)) {
+    if (!swept.isLink || !swept.isAtOnce || !swept.swept || !(swept.length > 0)) continue;
+    const Vec3 across = swept.linear[0].j.transpose().cross(apartBy(swept));
+    most = std::max(most, across.norm() / swept.length);
+  }
   return most > kFarTurn ? kFarTurn / most : 1;
 }
 
@@ -233,14 +211,14 @@ Vec3 Deformable::turnedBy(int place, std::span<const Displacement> moved) const 
 void Deformable::aimAtPoints(bool positions, std::span<const Displacement> moved) {
   PointFactor& f = *points_;
   std::fill(f.change.begin(), f.change.end(), Vec3::Zero());
-  forEachPair([&]<class C>(const C& item, SweptRow<C>& swept, PointFactor::Row& row) {
+  forEachPair([&]<int kRows>(SweptRow<kRows>& swept, PointFactor::Row& row) {
     if (!swept.swept) return;
     const auto [a, b] = swept.place;
-    const auto& j = swept.row.linear[0];
-    const typename Set<C>::Vector error = swept.constant + along(item, swept, moved) +
-                                          swept.alpha * swept.lambda +
-                                          gives_ * swept.own * swept.lambda;
-    swept.next = -(stiffnessOf<C>(swept, gives_) * error);
+    const auto& j = swept.linear[0].j;
+    const typename SweptRow<kRows>::Vector error = swept.constant + along(swept, moved) +
+                                                   swept.alpha * swept.lambda +
+                                                   gives_ * swept.own * swept.lambda;
+    swept.next = -(stiffnessOf(swept, gives_) * error);
     row.next = j.transpose() * (swept.lambda + swept.next) -
                row.turning * (turnedBy(a, moved) - turnedBy(b, moved)) - row.given;
     if (a >= 0) f.change[a] += row.next;
@@ -260,13 +238,12 @@ void Deformable::aimAtPoints(bool positions, std::span<const Displacement> moved
 // By what each row gives to both of its ends: their momentum stays, to rounding.
 void Deformable::takeChange(double share, std::span<const JointMass> masses,
                             std::span<Displacement> moved) {
-  forEachPair([&]<class C>(const C& item, SweptRow<C>& swept, PointFactor::Row& row) {
+  forEachPair([&]<int kRows>(SweptRow<kRows>& swept, PointFactor::Row& row) {
     if (!swept.swept) return;
     const Vec3 apart = apartBy(swept), push = share * (row.next - row.stiffness * apart);
     row.given += push;
-    swept.lambda +=
-        share * (swept.next - stiffnessOf<C>(swept, gives_) * (swept.row.linear[0] * apart));
-    const auto [a, b] = item.bodies;
+    swept.lambda += share * (swept.next - stiffnessOf(swept, gives_) * (swept.linear[0].j * apart));
+    const BodyId a = swept.bodies[0], b = swept.bodies[1];
     moved[a].u += masses[a].inverse * push;
     moved[b].u -= masses[b].inverse * push;
   });
@@ -317,12 +294,12 @@ double Deformable::solvePoints(bool positions, bool first, std::span<const Joint
 // it.
 void Deformable::preparePointVelocities(std::span<const Displacement> moved) {
   turnFrom(moved);
-  forEachPair([&]<class C>(const C& item, SweptRow<C>& swept, PointFactor::Row& row) {
+  forEachPair([&]<int kRows>(SweptRow<kRows>& swept, PointFactor::Row& row) {
     if (!swept.swept) return;
     const bool gives = !swept.alpha.isZero(0);
     swept.constant = -(gives_ * swept.own * swept.lambda);
-    if (gives) swept.constant -= along(item, swept, moved) + swept.alpha * swept.lambda;
-    row.given = swept.row.linear[0].transpose() * swept.lambda;
+    if (gives) swept.constant -= along(swept, moved) + swept.alpha * swept.lambda;
+    row.given = swept.linear[0].j.transpose() * swept.lambda;
   });
   prepareLengthVelocities();
 }

@@ -123,12 +123,17 @@ JointKind describe(const K& kind, int index) {
 }
 
 template <class K>
+Multiplier read(const K& kind, int index) {
+  Multiplier result;
+  result.total.template head<K::Item::kRows>() = kind.set.lambda[index].total;
+  result.dt = kind.set.lambda[index].step;
+  return result;
+}
+
+template <class K>
 void write(K& kind, int index, const Vec3& lambda, double dt) {
-  using C = typename K::Item;
-  if constexpr (kFits<C>) {
-    kind.set.lambda[index].total = lambda.template head<C::kRows>();
-    kind.set.lambda[index].step = dt;
-  }
+  kind.set.lambda[index].total = lambda.template head<K::Item::kRows>();
+  kind.set.lambda[index].step = dt;
 }
 
 template <class K>
@@ -153,6 +158,7 @@ struct Calls {
   Nature (*nature)(const Kinds&, int);
   JointKind (*describe)(const Kinds&, int);
   void (*evaluate)(const Kinds&, int, const Configuration&, JointRow&);
+  Multiplier (*read)(const Kinds&, int);
   void (*write)(Kinds&, int, const Vec3&, double);
   bool (*carries)(const Kinds&, int);
 };
@@ -165,6 +171,7 @@ constexpr auto callsOf(std::index_sequence<I...>) {
       [](const Kinds& kinds, int item, const Configuration& at, JointRow& row) {
         evaluateItem(std::get<I>(kinds).set.items[item], at, row);
       },
+      [](const Kinds& kinds, int item) { return read(std::get<I>(kinds), item); },
       [](Kinds& kinds, int item, const Vec3& lambda, double dt) {
         write(std::get<I>(kinds), item, lambda, dt);
       },
@@ -184,6 +191,10 @@ JointKind kindOf(const Kinds& kinds, JointRef ref) {
 
 void evaluateRow(const Kinds& kinds, JointRef ref, const Configuration& at, JointRow& row) {
   kCalls[ref.kind].evaluate(kinds, ref.item, at, row);
+}
+
+Multiplier readMultiplier(const Kinds& kinds, JointRef ref) {
+  return kCalls[ref.kind].read(kinds, ref.item);
 }
 
 void writeMultiplier(Kinds& kinds, JointRef ref, const Vec3& lambda, double dt) {

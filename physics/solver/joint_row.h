@@ -54,6 +54,12 @@ Nature natureOf(const Kinds& kinds, JointRef ref);
 
 JointKind kindOf(const Kinds& kinds, JointRef ref);
 void evaluateRow(const Kinds& kinds, JointRef ref, const Configuration& at, JointRow& row);
+// Of a step of dt; rows that a kind does not have are zero.
+struct Multiplier {
+  Vec3 total = Vec3::Zero();
+  double dt = 0;
+};
+Multiplier readMultiplier(const Kinds& kinds, JointRef ref);
 void writeMultiplier(Kinds& kinds, JointRef ref, const Vec3& lambda, double dt);
 bool carries(const Kinds& kinds, JointRef ref);  // it did when it was solved last
 

@@ -1,118 +1,147 @@
-// A constraint or force of a deformable, of any number of bodies, and what it takes part in.
+// A constraint or force of a deformable, of any number of bodies, as it was evaluated last. Of its
+// kind only the evaluation knows; all else goes by the number of its rows.
 #pragma once
 
 #include <Eigen/LU>
+#include <array>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "physics/base/profile.h"
-#include "physics/constraints/constraint_response.h"
-#include "physics/constraints/kinds.h"
 #include "physics/solver/articulation.h"
+#include "physics/solver/joint_row.h"
 
 namespace physics {
 
-// One constraint or force, as it was evaluated last.
-template <class C>
-struct SweptRow {
-  using Vector = typename Set<C>::Vector;
-  using Matrix = Eigen::Matrix<double, C::kRows, C::kRows>;
-  int item = 0;
-  bool swept = false;                   // it has anything to say, and can move something
-  bool isLoad = false;                  // a force that does not fall off
-  double own = 0;                       // mean of A's diagonal
-  bool held = false;                    // at a bound, while the others are solved for
-  bool isAtOnce = false;                // solved with the others that hold points, not swept
-  bool isImplied = false;               // others hold it
-  std::array<int, 2> place = {-1, -1};  // then: of its bodies, -1: it does not move
-  Evaluated<C> row;
-  Response<C> response;                                       // M^-1 J^T
+// What rows of any number have.
+struct SweptItem {
+  JointRef ref{};
+  bool isForce = false, isLink = false, isLength = false;
+  bool stands = true;               // what it wants is a place, not a speed
+  bool isPair = false;              // it holds two bodies, by where they are
+  bool isBothWays = false;          // without a bound, elastic ones as well
+  bool moves = true, turns = true;  // it has J along x, along theta
+  bool isAtOnce = false;            // solved with the others that hold points, not swept
+  bool isImplied = false;           // others hold it
+
+  // As it was evaluated last.
+  bool active = false;
+  bool swept = false;   // it has anything to say, and can move something
+  bool isLoad = false;  // a force that does not fall off
+  bool held = false;    // at a bound, while the others are solved for
+  double low = -std::numeric_limits<double>::infinity();  // bounds of the total
+  double high = std::numeric_limits<double>::infinity();
+  double longest = std::numeric_limits<double>::infinity();
+  double own = 0;             // mean of A's diagonal
+  double length = 0;          // of a link, of all pieces of a rope [m]
+  double regularisation = 0;  // relative to A
+
+  std::vector<BodyId> bodies;
+  std::array<int, 2> place = {-1, -1};  // at once: of its bodies, -1: it does not move
+  bool isOfPieces() const { return isLink || isLength; }
+};
+
+template <int kRows>
+struct SweptRow : SweptItem {
+  using Vector = Eigen::Matrix<double, kRows, 1>;
+  using Matrix = Eigen::Matrix<double, kRows, kRows>;
+  struct Part {
+    Eigen::Matrix<double, kRows, 3> j;
+    Eigen::Matrix<double, 3, kRows> response;  // M^-1 J^T
+  };
+  std::vector<Part> linear, angular;  // by body; none where it does not move or turn
+  Vector c = Vector::Zero();
   Matrix inverse = Matrix::Zero(), alpha = Matrix::Zero();    // (A + alpha)^-1
   Vector constant = Vector::Zero(), lambda = Vector::Zero();  // c - J u_0
   Vector pulled = Vector::Zero(), next = Vector::Zero();      // lambda of the last substep or step
                                                               // of Newton's; and of its next one
-  double low = 0, high = 0;
 };
 
-template <class Table>
-struct SweptRowsOf;
-template <class... K>
-struct SweptRowsOf<std::tuple<K...>> {
-  using Type = std::tuple<std::vector<SweptRow<typename K::Item>>...>;
+// Those of a deformable, in the order of the table of kinds.
+struct SweptRows {
+  struct Run {  // of one kind
+    int kind;
+    const char* word;
+    int rows, begin, end;
+  };
+  std::vector<Run> runs;
+  std::tuple<std::vector<SweptRow<1>>, std::vector<SweptRow<2>>, std::vector<SweptRow<3>>> lists;
 };
-using SweptRows = SweptRowsOf<Kinds>::Type;
 
 namespace swept {
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 // Of a push that falls off in some directions only: how stiff it is taken to be in the others,
 // relative to its mean.
 inline constexpr double kLeastStiffness = 1e-7;
-template <class C>
-typename Set<C>::Vector along(const C& item, const SweptRow<C>& swept,
-                              std::span<const Displacement> moved) {
-  typename Set<C>::Vector sum = Set<C>::Vector::Zero();
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const Displacement& m = moved[item.bodies[b]];
-    if constexpr (C::kLinear) sum.noalias() += swept.row.linear[b].lazyProduct(m.u);
-    if constexpr (isAngular<C>()) sum.noalias() += swept.row.angular[b].lazyProduct(m.theta);
+
+// Adds the constraint after those that are there.
+void add(SweptRows& rows, const Kinds& kinds, JointRef ref);
+
+enum class Seen { kGradients, kAll };  // J and c alone; or alpha, constant and bounds as well
+// `many`: to work in.
+template <int kRows>
+void evaluate(const Kinds& kinds, const Configuration& at, Seen seen, Row<kMany, 1>& many,
+              SweptRow<kRows>& swept);
+
+template <int kRows>
+typename SweptRow<kRows>::Vector along(const SweptRow<kRows>& swept,
+                                       std::span<const Displacement> moved) {
+  typename SweptRow<kRows>::Vector sum = SweptRow<kRows>::Vector::Zero();
+  for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+    const Displacement& m = moved[swept.bodies[b]];
+    if (swept.moves) sum.noalias() += swept.linear[b].j.lazyProduct(m.u);
+    if (swept.turns) sum.noalias() += swept.angular[b].j.lazyProduct(m.theta);
   }
   return sum;
 }
 
-template <class C>
-void give(const C& item, const SweptRow<C>& swept, const typename Set<C>::Vector& impulse,
+template <int kRows>
+void give(const SweptRow<kRows>& swept, const typename SweptRow<kRows>::Vector& impulse,
           std::span<Displacement> moved) {
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    Displacement& m = moved[item.bodies[b]];
-    if constexpr (C::kLinear) m.u.noalias() += swept.response.linear[b].lazyProduct(impulse);
-    if constexpr (isAngular<C>()) {
-      m.theta.noalias() += swept.response.angular[b].lazyProduct(impulse);
-    }
+  for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+    Displacement& m = moved[swept.bodies[b]];
+    if (swept.moves) m.u.noalias() += swept.linear[b].response.lazyProduct(impulse);
+    if (swept.turns) m.theta.noalias() += swept.angular[b].response.lazyProduct(impulse);
   }
 }
 
 // A, with M^-1 J^T on the way.
-template <class C>
-typename SweptRow<C>::Matrix respond(const C& item, SweptRow<C>& swept,
-                                     std::span<const JointMass> masses) {
-  const auto massOf = [&](BodyId body) -> const JointMass& { return masses[body]; };
-  return physics::respond(item, swept.row, swept.response, massOf);
-}
-
-// alpha and c of what was evaluated.
-template <class C>
-typename Set<C>::Vector errorOf(SweptRow<C>& swept) {
-  if constexpr (Force<C>) {
-    swept.low = -kUnbounded;
-    swept.high = kUnbounded;
-    const double mean = swept.row.k.trace() / C::kRows;
-    swept.isLoad = !(mean > 0);
-    if (swept.isLoad) return swept.row.f;
-    typename SweptRow<C>::Matrix k = 0.5 * (swept.row.k + swept.row.k.transpose());
-    k.diagonal().array() += kLeastStiffness * mean;
-    swept.alpha = k.inverse();
-    return -(swept.alpha * swept.row.f);
-  } else {
-    swept.low = swept.row.low;
-    swept.high = swept.row.high;
-    swept.alpha = swept.row.alpha * SweptRow<C>::Matrix::Identity();
-    return swept.row.c;
+template <int kRows>
+typename SweptRow<kRows>::Matrix respond(SweptRow<kRows>& swept,
+                                         std::span<const JointMass> masses) {
+  typename SweptRow<kRows>::Matrix a = SweptRow<kRows>::Matrix::Zero();
+  for (std::size_t b = 0; b < swept.bodies.size(); ++b) {
+    const auto& [inverse, inertia] = masses[swept.bodies[b]];
+    if (swept.moves) {
+      auto& [j, response] = swept.linear[b];
+      response = inverse * j.transpose();
+      a.noalias() += j.lazyProduct(response);
+    }
+    if (swept.turns) {
+      auto& [j, response] = swept.angular[b];
+      response.noalias() = inertia.lazyProduct(j.transpose());
+      a.noalias() += j.lazyProduct(response);
+    }
   }
+  return a;
 }
 
-template <class C>
-typename Set<C>::Vector clamped(const SweptRow<C>& swept, const typename Set<C>::Vector& total) {
-  typename Set<C>::Vector inside = total.cwiseMax(swept.low).cwiseMin(swept.high);
+template <int kRows>
+typename SweptRow<kRows>::Vector clamped(const SweptRow<kRows>& swept,
+                                         const typename SweptRow<kRows>::Vector& total) {
+  typename SweptRow<kRows>::Vector inside = total.cwiseMax(swept.low).cwiseMin(swept.high);
   const double length = inside.norm();
-  if (length > swept.row.longest) inside *= swept.row.longest / length;  // (132)
+  if (length > swept.longest) inside *= swept.longest / length;  // (132)
   return inside;
 }
 
-template <class C>
-void invert(SweptRow<C>& swept, typename SweptRow<C>::Matrix a, double regularisation) {
-  const double mean = a.trace() / C::kRows;
+template <int kRows>
+void invert(SweptRow<kRows>& swept, typename SweptRow<kRows>::Matrix a, double regularisation) {
+  const double mean = a.trace() / kRows;
   swept.swept = mean > 1e-300;  // else it moves nothing
   swept.held = false;
   swept.own = mean;
@@ -123,43 +152,43 @@ void invert(SweptRow<C>& swept, typename SweptRow<C>::Matrix a, double regularis
   swept.inverse = a.inverse();
 }
 
-template <class C>
-void change(const C& item, SweptRow<C>& swept, const typename Set<C>::Vector& error,
+template <int kRows>
+void change(SweptRow<kRows>& swept, const typename SweptRow<kRows>::Vector& error,
             std::span<Displacement> moved) {
-  const typename Set<C>::Vector total = clamped<C>(swept, swept.lambda - swept.inverse * error);
-  give(item, swept, typename Set<C>::Vector(total - swept.lambda), moved);
+  using Vector = typename SweptRow<kRows>::Vector;
+  const Vector total = clamped<kRows>(swept, swept.lambda - swept.inverse * error);
+  give<kRows>(swept, total - swept.lambda, moved);
   swept.lambda = total;
 }
 
 // Velocities are not its to hold; a motor's speed is not zero.
-template <class C>
-bool givesWay(const SweptRow<C>& swept) {
-  return Force<C> || !canStand<C>() || !swept.alpha.isZero(0);
+template <int kRows>
+bool givesWay(const SweptRow<kRows>& swept) {
+  return swept.isForce || !swept.stands || !swept.alpha.isZero(0);
 }
 
-template <class C>
-bool isBounded(const SweptRow<C>& swept) {
-  return swept.low > -kUnbounded || swept.high < kUnbounded || swept.row.longest < kUnbounded;
+inline bool isBounded(const SweptItem& swept) {
+  return swept.low > -kUnbounded || swept.high < kUnbounded || swept.longest < kUnbounded;
 }
 
 // It has a bound, and did not have to hold anything.
-template <class C>
-bool isSlack(const SweptRow<C>& swept) {
+template <int kRows>
+bool isSlack(const SweptRow<kRows>& swept) {
   return isBounded(swept) && swept.lambda.isZero(0);
 }
 
-// f(item, swept, regularisation) of every row.
-template <class F>
-void forEachRow(SweptRows& rows, const Kinds& kinds, F&& f) {
-  forEachKind(kinds, [&](const auto& kind) {
-    using K = std::decay_t<decltype(kind)>;
-    using C = typename K::Item;
-    auto& list = std::get<std::vector<SweptRow<C>>>(rows);
-    if (!list.empty()) profileScope(K::kWord);
-    for (SweptRow<C>& swept : list) {
-      f(kind.set.items[swept.item], swept, kind.set.tuned[swept.item].regularisation);
-    }
-  });
+// f(row) of each.
+template <class Rows, class F>
+void forEachRow(Rows& rows, F&& f) {
+  const auto walk = [&](auto& list, const SweptRows::Run& run) {
+    for (int k = run.begin; k < run.end; ++k) f(list[k]);
+  };
+  for (const SweptRows::Run& run : rows.runs) {
+    profileScope(run.word);
+    if (run.rows == 1) walk(std::get<0>(rows.lists), run);
+    if (run.rows == 2) walk(std::get<1>(rows.lists), run);
+    if (run.rows == 3) walk(std::get<2>(rows.lists), run);
+  }
 }
 
 }  // namespace swept
