@@ -1,7 +1,8 @@
-// Islands that step by an accuracy and touch: by the substeps of the default, whose error has all
-// powers of h while nothing comes into touch or leaves it, and the steps are divided about where
-// something does. Where bodies err or contacts change in many places at once no step resolves it:
-// an island goes on by the default then, and the estimate tells.
+// Islands that step by an accuracy and touch, and ropes, cloth and soft bodies that nothing
+// touches: by the substeps of the default, whose error has all powers of h while nothing comes into
+// touch or leaves it, and the steps are divided about where something does. Where bodies err or
+// contacts change in many places at once no step resolves it: an island goes on by the default
+// then, and the estimate tells.
 //
 // Each has steps and moments of its own. Contacts know nothing of the length of a substep, so that
 // islands with as many to make make them in the same lanes; none feels the others.
@@ -20,6 +21,10 @@ namespace {
 constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
 // Of a step, each at its moment: what has more is no motion to follow.
 constexpr int kMostPlaces = 4;
+// Of meshes every point errs in every step, and what has no powers of h shows otherwise: a column
+// leaves more than this of the error, as where links draw taut and go slack. A step for it would
+// have to end at each of them, so that the last row is taken as it is.
+constexpr double kTakesAway = 0.5;
 
 bool slides(const KeptContact& c, double along, double normal) {
   constexpr double kOnCone = 1 - 1e-5;  // but for single precision
@@ -29,7 +34,7 @@ bool slides(const KeptContact& c, double along, double normal) {
 }  // namespace
 
 bool SmallSteps::Impl::stepsAccurately(const Model& w, const Batch& batch) const {
-  return w.settings.accuracy && batch.touches && batch.deformables.empty() &&
+  return w.settings.accuracy && (batch.touches || !batch.deformables.empty()) &&
          batch.softPairs.empty();
 }
 
@@ -50,6 +55,7 @@ double SmallSteps::Impl::allowedError(const Model& w) const {
 
 void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) goBack(b, batch, k);
+  for (const int d : batch.deformables) deformables[d].goBack();
 }
 
 // Contacts that touch at other points at the end of a row than they did before the step, or that
@@ -229,6 +235,7 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   if (!(trial.left > 0)) return false;
   keepStart(w, batch);
   trial.isOneRow = mayTakeOneRow(w, trial);
+  trial.isRough = false;
   const double next = trial.hits ? 0 : trial.isOneRow ? trial.left : choice.next(trial.left, dt);
   const double wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
   trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
@@ -333,10 +340,10 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
   StepChoice& choice = choices[batch.bodies.front()];
   const double dt = w.settings.dt, allowed = allowedError(w);
-  const bool isLost = trial.changes > kMostPlaces;
+  const bool isLost = trial.changes > kMostPlaces || trial.isRough;
   const bool isKnown = trial.columns > 1 || trial.isOneRow;
   const bool isSmall = isKnown && trial.error <= allowed;
-  const bool isFew = trial.places <= kMostPlaces && !isLost;
+  const bool isFew = (!batch.deformables.empty() || trial.places <= kMostPlaces) && !isLost;
   if (!isSmall && trial.whole > kLeastPart * dt && isFew) {
     ++trial.told.rejected;
     goBack(w.bodies, batch);
@@ -348,7 +355,8 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
     return false;
   }
   if (!isSmall) {
-    choice.giveUp(isLost ? trial.error : 0);
+    choice.giveUp(isLost && !trial.isRough ? trial.error : 0);
+    if (trial.isRough) choice.forget();
   } else if (trial.isOneRow) {
     choice.rest();
   } else if (!trial.hits) {  // a jump is no smoother in shorter substeps
@@ -380,8 +388,10 @@ bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
   } else if (trial.changes > 0) {
     trial.error =
         std::max(trial.error, trial.tableau.gain(trial.extent, w.settings.dt, trial.levers));
-  } else {
-    return trial.error > allowedError(w) && choice.extend();
+  } else if (trial.error > allowedError(w)) {
+    trial.isRough = !batches[trial.batch].deformables.empty() && trial.tableau.rows() > 2 &&
+                    !(trial.error < kTakesAway * trial.coarser);
+    return !trial.isRough && choice.extend();
   }
   return false;
 }
@@ -407,7 +417,9 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
   for (std::size_t part = 0; part < group.size(); ++part) {
     if (ends[part] != Ended::kAccepted) continue;
     if (group[part]->columns > 1) holdLoads(w, *group[part]);
-    batch.joints.finish(w.kinds, group[part]->whole / group[part]->steps);
+    const double h = group[part]->whole / group[part]->steps;
+    batch.joints.finish(w.kinds, h);
+    for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
   }
   if (asks) ask(w, batch, w.settings.dt / batch.substeps);
   std::size_t kept = 0;

@@ -13,6 +13,7 @@ void SmallSteps::Impl::keepStart(const Model& w, Batch& batch) {
   for (const BodyId i : batch.bodies) {
     batch.kept.push_back({w.bodies.pose[i], w.bodies.velocity[i], meanSpins[i]});
   }
+  for (const int d : batch.deformables) deformables[d].keep();
 }
 
 void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch, std::size_t k) {

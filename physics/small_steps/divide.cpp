@@ -58,9 +58,7 @@ void SmallSteps::Impl::learn(Model& w) {
   finer.clear();
   for (const BodyId root : roots) {
     const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
-    // Sweeps leave meshes strained, by no more than that; within three times is as asked.
-    const bool isSwept = mesh.points && 3 * w.settings.accuracy.value_or(1) >= kLargestStrain;
-    const bool isDirect = mesh.fill <= (isSwept ? kMostFillOfPoints : kMostFill);
+    const bool isDirect = mesh.fill <= (mesh.points ? kMostFillOfPoints : kMostFill);
     if (mesh.points || !isDirect) {
       deformables.emplace_back(rows[root], w.kinds, w.bodies.inverse, isDirect);
       for (const BodyId i : deformables.back().bodies()) {
@@ -128,7 +126,7 @@ int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) 
 // further where no contact pushes. So are islands whose contacts know other things of joints.
 SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, BodyId root) {
   const bool touches = held[root] == Held::kTouching;
-  const bool isAlone = w.settings.accuracy && touches;  // its steps are its own
+  const bool isAlone = w.settings.accuracy && (touches || deforms[root]);  // its steps are its own
   for (std::size_t k = 0; k < batchCount && !isAlone; ++k) {
     const Batch& batch = batches[k];
     if (batch.substeps == substeps[root] && batch.sweeps == sweeps[root] &&
@@ -192,6 +190,7 @@ void SmallSteps::Impl::divide(Model& w) {
     batchOf[i] = -1;
     held[i] = Held::kNot;
     joined[i] = Joined::kNot;
+    deforms[i] = 0;
     substeps[i] = 1;
     sweeps[i] = 1;
   }
@@ -204,6 +203,7 @@ void SmallSteps::Impl::divide(Model& w) {
           std::max(joined[root], responding[k] ? Joined::kResponds : Joined::kTakesTurns);
     }
     if (articulationOf[i] >= 0 || deformableOf[i] >= 0) held[root] = Held::kJoined;
+    if (deformableOf[i] >= 0) deforms[root] = 1;
   }
   forApproach.resize(contacts.size());
   w.workers.forEachChunk(static_cast<int>(contacts.size()), kLeastContacts, [&](int from, int to) {

@@ -76,6 +76,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   energy.resize(bodies);
   held.resize(bodies);
   joined.resize(bodies);
+  deforms.resize(bodies);
   predicted.resize(bodies);
   opened.resize(bodies);
   change.resize(bodies);

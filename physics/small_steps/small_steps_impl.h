@@ -12,7 +12,7 @@
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds, and those that are about to meet
 //   accurately.cpp    islands that step by an accuracy, and touch nothing
-//   accurately_touching.cpp  and those that touch
+//   accurately_touching.cpp  and those that touch, or have meshes and ropes
 //   close_velocities.cpp     sweeps over their contacts until these change no more
 //   bounce.cpp        restitution
 //   look.cpp          the contacts of a step
@@ -140,7 +140,8 @@ struct SmallSteps::Batch {
   bool isSoft() const { return !deformables.empty() || !softRows.empty(); }
 };
 
-// An island that steps by an accuracy and touches, on its way through a step of the world's.
+// An island that steps by an accuracy and touches or has meshes, on its way through a step of the
+// world's.
 struct SmallSteps::Trial {
   std::size_t batch = 0;       // its bodies and contacts
   double left = 0, whole = 0;  // of the step; of it, what is tried now [s]
@@ -154,8 +155,9 @@ struct SmallSteps::Trial {
   int flights = 0;
   bool isOneRow = false, needsMore = false;  // it is tried by one row; that did not do
   double oneRowErrs = 0;                     // by what is known of it; infinite: nothing is
-  bool isLost = false;  // no step resolved the last one, and the default's is all of this
-  bool hits = false;    // an impact comes next: by itself, and what flies on then flies exactly
+  bool isLost = false;   // no step resolved the last one, and the default's is all of this
+  bool isRough = false;  // what its rows err by has no powers of h
+  bool hits = false;     // an impact comes next: by itself, and what flies on then flies exactly
   AccuracyReport told;
 };
 
@@ -252,6 +254,7 @@ struct SmallSteps::Impl {
   enum class Held : char { kNot, kJoined, kTouching };          // by joints or points; by contacts
   std::vector<Held> held;                                       // of an island, by its first body
   std::vector<Joined> joined;                                   // the same
+  std::vector<char> deforms;                                    // the same: it has meshes or ropes
   std::vector<double> load, sag, energy, change, changeBefore;  // by body (island: by its first)
   std::vector<double> drawn, carried, weight;                   // the same
   std::vector<Displacement> predicted;        // by body: before joints and contacts

@@ -204,9 +204,11 @@ void SmallSteps::Impl::forgetClosing(Model& w, Batch& batch, double h) {
 void SmallSteps::Impl::sweepDeformables(Model& w, Batch& batch, double h) {
   if (batch.deformables.empty() && batch.softRows.empty()) return;
   const double push = w.settings.contact ? w.settings.contact->maxSeparationSpeed * h : 0;
+  constexpr double kAsIs = std::numeric_limits<double>::infinity();
+  const double closed = w.settings.accuracy ? std::sqrt(allowedError(w)) : kAsIs;
   const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
   for (const int k : batch.deformables) {
-    deformables[k].solvePositions(stage, w.settings.dt, push, batch.softRows);
+    deformables[k].solvePositions(stage, w.settings.dt, push, closed, batch.softRows);
   }
   warmStart(batch.softRows, moved);
   for (int s = 0; s < kPositionSweeps; ++s) {

@@ -147,7 +147,7 @@ void Deformable::evaluateRows(const JointStage& stage, bool first) {
   if (points_) takeStiffness(masses, first);
 }
 
-void Deformable::solvePositions(const JointStage& stage, double step, double push,
+void Deformable::solvePositions(const JointStage& stage, double step, double push, double closed,
                                 std::span<SoftRow> rows) {
   const double substeps = step / stage.h;
   gives_ = kGivesInStep * substeps * substeps;
@@ -155,7 +155,7 @@ void Deformable::solvePositions(const JointStage& stage, double step, double pus
   takeContacts(rows, push);
   if (factor_) return solveAllPositions(stage);
   takePressed();
-  solvePointPositions(stage);
+  solvePointPositions(stage, closed);
 }
 
 void Deformable::sweepPositions(const JointStage& stage) {
@@ -233,6 +233,16 @@ void Deformable::goOn(const Kinds& kinds) {
     swept.lambda = last.total.template head<kRows>();
     before_ = last.dt;
   });
+}
+
+void Deformable::keep() {
+  forEachRow(rows_, [](auto& swept) { swept.kept = swept.lambda; });
+  beforeKept_ = before_;
+}
+
+void Deformable::goBack() {
+  forEachRow(rows_, [](auto& swept) { swept.lambda = swept.kept; });
+  before_ = beforeKept_;
 }
 
 void Deformable::finish(Kinds& kinds, double dt) const {

@@ -120,8 +120,10 @@ class Deformable {
 
   // What is solved at once, by Newton's method, with the normal rows of the contacts of its points
   // and the bodies that touch them: what presses on a light one in several places moves it once. An
-  // overlap is taken back by at most `push` [m].
-  void solvePositions(const JointStage& stage, double step, double push, std::span<SoftRow> rows);
+  // overlap is taken back by at most `push` [m]. Steps of Newton's go on until one changes the way
+  // of points by no more than `closed` of it: what holds them then is off by its square.
+  void solvePositions(const JointStage& stage, double step, double push, double closed,
+                      std::span<SoftRow> rows);
   void sweepPositions(const JointStage& stage);  // the rest
   // At the end of the substep.
   void prepareVelocities(const Kinds& kinds, const Configuration& at,
@@ -134,6 +136,9 @@ class Deformable {
   // Writes the multipliers back to the kinds' sets.
   void finish(Kinds& kinds, double dt) const;
   void goOn(const Kinds& kinds);  // from the multipliers that stand there
+  // What a substep knows of the one before: as it is now, and as it was then.
+  void keep();
+  void goBack();
 
  private:
   // Evaluates all rows where `moved` takes the bodies from the start of the substep: the first time
@@ -160,7 +165,7 @@ class Deformable {
   void takeChange(double share, std::span<const JointMass> masses, std::span<Displacement> moved);
   double solvePoints(bool positions, bool first, std::span<const JointMass> masses,
                      std::span<Displacement> moved);
-  void solvePointPositions(const JointStage& stage);
+  void solvePointPositions(const JointStage& stage, double closed);
   void preparePointVelocities(std::span<const Displacement> moved);
 
   // Of total lengths beside them.
@@ -201,7 +206,7 @@ class Deformable {
   bool chooseAgain(bool isLate, std::span<const Displacement> moved);
   double shareOfStep(std::span<const Pose> pose, std::span<const Displacement> moved) const;
   void takePositions(double share, std::span<Displacement> moved);
-  bool isClosed(std::span<const Displacement> moved) const;
+  bool isClosed(std::span<const Displacement> moved, double closed) const;
   void solveVelocities(std::span<Displacement> moved);
   void factorize(bool positions);
   void solveFactor();
@@ -228,10 +233,10 @@ class Deformable {
   std::vector<SoftRow*> contacts_;
   // Of the contacts: those that the factor has rows for, and those found.
   std::vector<std::array<BodyId, 3>> laid_, found_;
-  double gives_ = 0;   // what rigid links of a cloth, and total lengths, give way by, of own A
-  double before_ = 0;  // length of the last substep [s]; 0: none
-  double push_ = 0;    // overlap taken back in a substep, at the most [m]
-  std::vector<BodyId> bodies_;  // those that move, sorted
+  double gives_ = 0;  // what rigid links of a cloth, and total lengths, give way by, of own A
+  double before_ = 0, beforeKept_ = 0;  // length of the last substep [s]; 0: none
+  double push_ = 0;                     // overlap taken back in a substep, at the most [m]
+  std::vector<BodyId> bodies_;          // those that move, sorted
   std::vector<BodyId> solved_;  // those, and bodies that touch them: what a factor solves for
   std::size_t size_ = 0;
   Row<kMany, 1> many_;  // to work in

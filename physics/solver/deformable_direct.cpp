@@ -254,6 +254,7 @@ void Deformable::solveProgram(bool first, std::span<const Displacement> moved) {
 }
 
 void Deformable::solveAllPositions(const JointStage& stage) {
+  constexpr double kClosed = 1e-7;  // its square, what the next step would change, is rounding
   if (found_ != laid_) {
     takeLaid();
     unknown_.clear();
@@ -266,20 +267,19 @@ void Deformable::solveAllPositions(const JointStage& stage) {
     solveProgram(step == 1, stage.moved);
     const double share = shareOfStep(stage.pose, stage.moved);
     takePositions(share, stage.moved);
-    if (step == kMostSteps || (share == 1 && isClosed(stage.moved))) return;
+    if (step == kMostSteps || (share == 1 && isClosed(stage.moved, kClosed))) return;
     evaluate(stage, false);
   }
 }
 
 // What the last step of Newton's changed is nothing to the way that was made.
-bool Deformable::isClosed(std::span<const Displacement> moved) const {
-  constexpr double kClosed = 1e-7;  // its square, what the next step would change, is rounding
+bool Deformable::isClosed(std::span<const Displacement> moved, double closed) const {
   double change = 0, way = 0;
   for (std::size_t k = 0; k < solved_.size(); ++k) {
-    change = std::max(change, factor_->solution.segment<3>(unknown_[k]).squaredNorm());
+    change = std::max(change, changeOf(solved_[k]).u.squaredNorm());
     way = std::max(way, moved[solved_[k]].u.squaredNorm());
   }
-  return change <= kClosed * kClosed * way;
+  return !(change > closed * closed * way);
 }
 
 void Deformable::solveVelocities(std::span<Displacement> moved) {

@@ -306,12 +306,13 @@ void Deformable::preparePointVelocities(std::span<const Displacement> moved) {
 
 // Two steps of Newton's: what is left of the first is of second order in how far pieces turn, and
 // of what is stiff that is energy.
-void Deformable::solvePointPositions(const JointStage& stage) {
+void Deformable::solvePointPositions(const JointStage& stage, double closed) {
   evaluate(stage, true);
   for (int step = 1;; ++step) {
     turnFrom(stage.moved);
     const double share = solvePoints(true, step == 1, stage.masses, stage.moved);
-    if (step == kMostSteps || (step > 1 && share == 1)) return;
+    const bool isClose = step > 1 && share == 1 && isClosed(stage.moved, closed);
+    if (step == kMostSteps || isClose) return;
     evaluate(stage, false);
   }
 }

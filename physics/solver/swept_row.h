@@ -55,6 +55,7 @@ struct SweptRow : SweptItem {
   Vector c = Vector::Zero();
   Matrix inverse = Matrix::Zero(), alpha = Matrix::Zero();    // (A + alpha)^-1
   Vector constant = Vector::Zero(), lambda = Vector::Zero();  // c - J u_0
+  Vector kept = Vector::Zero();                               // lambda, to go back to
   Vector pulled = Vector::Zero(), next = Vector::Zero();      // lambda of the last substep or step
                                                               // of Newton's; and of its next one
 };
