@@ -93,20 +93,23 @@ void SmallSteps::Impl::noteLoads(const Model& w, const Batch& batch) {
 }
 
 // A contact gives way by its load and h^2, so that what rests would be at another place in each
-// row. The load that two rows agree on is the contact's: about it the law is, as it is about the
-// loads that a scene starts with, and what rests is where it touches in all of them.
+// row. The load that two rows agree on, by what its bodies give way by, is the contact's: about it
+// the law is, as it is about the loads that a scene starts with, and what rests is where it touches
+// in all of them.
 void SmallSteps::Impl::holdLoads(const Model& w, const Trial& trial) {
   if (trial.changes > 0) return;
+  const double h = trial.whole / trial.steps;
   for (const int contact : batches[trial.batch].contacts) {
     KeptContact& c = contacts[contact];
     if (c.isHeld()) continue;
     const PointLoads &load = rowLoads[contact], &coarser = coarserLoads[contact];
-    double sum = 0, difference = 0;
+    double difference = 0;
     for (int k = 0; k < c.count; ++k) {
-      sum += load[k];
       difference = std::max(difference, std::abs(load[k] - coarser[k]));
     }
-    if (difference <= allowedError(w) * sum) std::copy_n(load.begin(), c.count, c.held.begin());
+    const double gives = h * h * (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
+    if (gives * difference > allowedError(w) * trial.extent) continue;
+    std::copy_n(load.begin(), c.count, c.held.begin());
   }
 }
 
