@@ -95,13 +95,14 @@ void SmallSteps::Impl::noteLoads(const Model& w, const Batch& batch) {
 // A contact gives way by its load and h^2, so that what rests would be at another place in each
 // row. The load that two rows agree on, by what its bodies give way by, is the contact's: about it
 // the law is, as it is about the loads that a scene starts with, and what rests is where it touches
-// in all of them.
+// in all of them. What has come to rest carries it otherwise than it did on its way there.
 void SmallSteps::Impl::holdLoads(const Model& w, const Trial& trial) {
   if (trial.changes > 0) return;
   const double h = trial.whole / trial.steps;
+  const bool rests = wayAhead(w, trial) <= allowedError(w);
   for (const int contact : batches[trial.batch].contacts) {
     KeptContact& c = contacts[contact];
-    if (c.isHeld()) continue;
+    if (c.isHeld() && !rests) continue;
     const PointLoads &load = rowLoads[contact], &coarser = coarserLoads[contact];
     double difference = 0;
     for (int k = 0; k < c.count; ++k) {
@@ -155,19 +156,27 @@ void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
   }
 }
 
-// The largest way of its points from where they are kept, and in this step by how fast they are
-// now: over its size.
+// The largest way of its points in a step by how fast they are now: over its size.
+double SmallSteps::Impl::wayAhead(const Model& w, const Trial& trial) const {
+  const Batch& batch = batches[trial.batch];
+  double most = 0;
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    const Velocity& v = w.bodies.velocity[batch.bodies[k]];
+    most = std::max(most, v.v.norm() + trial.levers[k] * v.w.norm());
+  }
+  return w.settings.dt * most / trial.extent;
+}
+
+// That, and their way from where they are kept.
 double SmallSteps::Impl::wayOf(const Model& w, const Trial& trial) const {
   const Batch& batch = batches[trial.batch];
   double most = 0;
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
     const Pose &now = w.bodies.pose[batch.bodies[k]], &start = batch.kept[k].pose;
-    const Velocity& v = w.bodies.velocity[batch.bodies[k]];
     const double turn = logarithm(now.q * start.q.conjugate()).norm();
-    most = std::max({most, (now.x - start.x).norm() + trial.levers[k] * turn,
-                     w.settings.dt * (v.v.norm() + trial.levers[k] * v.w.norm())});
+    most = std::max(most, (now.x - start.x).norm() + trial.levers[k] * turn);
   }
-  return most / trial.extent;
+  return std::max(most / trial.extent, wayAhead(w, trial));
 }
 
 // The mean one of the k-th body since it was kept [m/s^2, rad/s^2].
