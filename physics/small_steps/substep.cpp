@@ -1,5 +1,8 @@
 // One substep of a batch: predict, positions, displace, velocities.
 
+#include <cmath>
+#include <limits>
+
 #include "physics/base/inverse.h"
 #include "physics/base/profile.h"
 #include "physics/motion/free_motion.h"

@@ -1,6 +1,9 @@
 // Rows of a deformable: what is different from kind to kind.
 #include "physics/solver/swept_row.h"
 
+#include <type_traits>
+#include <utility>
+
 namespace physics::swept {
 namespace {
 
