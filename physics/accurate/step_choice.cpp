@@ -49,7 +49,7 @@ double StepChoice::workFor(double step, int columns, double time) const {
   return 0.5 * columns * (columns + 1) / std::min(step, time);
 }
 
-void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_, resolves_, lost_); }
+void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_, resolves_, isRough_, lost_); }
 
 double StepChoice::next(double left, double time) const {
   const double step = wanted(time);
@@ -75,6 +75,7 @@ void StepChoice::accept(double step, double error, double coarser, const Allowan
                         double time) {
   bound_ *= kRegained;
   resolves_ = true;
+  isRough_ = isRough_ && step < time;
   lost_ = 0;
   const auto bounded = [&](double of) { return std::min(of, bound_); };
   const auto pays = [&](double of, int columns, double other, int others) {

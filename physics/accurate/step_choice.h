@@ -52,6 +52,15 @@ class StepChoice {
     resolves_ = rejected_ = false;
     lost_ = lost;
   }
+  // The same of what has no powers of h. Neither shorter steps nor more columns are tried again
+  // until a whole frame is resolved as it is: what has been lost they do not bring back.
+  void takeAsItIs() {
+    giveUp(0);
+    forget();
+    columns_ = least_;
+    isRough_ = true;
+  }
+  bool isRough() const { return isRough_; }
   // What the last step erred by, where none resolves it; 0: one may.
   double lost() const { return lost_; }
   // The last step erred by no more than was allowed.
@@ -70,6 +79,7 @@ class StepChoice {
   Rows rows_;
   bool resolves_ = false;
   bool rejected_ = false;  // the step before, in the same frame
+  bool isRough_ = false;
   double lost_ = 0;
   double wanted_ = 0;                                       // [s]; 0: not known
   double bound_ = std::numeric_limits<double>::infinity();  // longer ones failed [s]

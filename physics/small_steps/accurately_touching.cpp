@@ -23,8 +23,11 @@ constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown 
 constexpr int kMostPlaces = 4;
 // Of meshes every point errs in every step, and what has no powers of h shows otherwise: a column
 // leaves more than this of the error, as where links draw taut and go slack. A step for it would
-// have to end at each of them, so that the last row is taken as it is.
+// have to end at each of them, so that what rows come to is taken as it is.
 constexpr double kTakesAway = 0.5;
+// Of the way of a step: where rows differ by less, what they lead to is nearer than the last of
+// them. What they do not agree on at all would be thrown about by it.
+constexpr double kAgreed = 0.1;
 
 bool slides(const KeptContact& c, double along, double normal) {
   constexpr double kOnCone = 1 - 1e-5;  // but for single precision
@@ -139,6 +142,45 @@ void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
     w.bodies.pose[batch.bodies[k]] = reached.pose[k];
     w.bodies.velocity[batch.bodies[k]] = reached.velocity[k];
+  }
+  closeMeshes(w, batch, trial.whole / trial.steps);
+}
+
+// What rows lead to is off what holds meshes by the square of what they differ by.
+void SmallSteps::Impl::closeMeshes(Model& w, const Batch& batch, double h) {
+  if (batch.deformables.empty()) return;
+  Bodies& b = w.bodies;
+  std::vector<Pose>& before = reached.pose;
+  before.clear();
+  for (const BodyId i : batch.bodies) {
+    before.push_back(b.start[i]);
+    b.start[i] = b.pose[i];
+    moved[i] = {Vec3::Zero(), Vec3::Zero()};
+  }
+  const JointStage stage = {w.kinds, b.pose, b.start, h, masses, moved};
+  for (const int d : batch.deformables) {
+    Deformable& mesh = deformables[d];
+    mesh.keep();
+    if (mesh.isAtOnce()) {
+      mesh.solvePositions(stage, w.settings.dt, 0, std::sqrt(allowedError(w)), {});
+    }
+  }
+  for (const BodyId i : batch.bodies) {
+    displace(b.pose[i], moved[i].u, moved[i].theta);
+    moved[i] = {h * b.velocity[i].v, h * b.velocity[i].w};
+  }
+  for (const int d : batch.deformables) {
+    Deformable& mesh = deformables[d];
+    if (mesh.isAtOnce()) {
+      mesh.prepareVelocities(w.kinds, {b.pose, b.start, h}, masses, moved);
+      mesh.sweepVelocities(masses, moved);
+    }
+    mesh.goBack();
+  }
+  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+    const BodyId i = batch.bodies[k];
+    b.velocity[i] = {moved[i].u / h, moved[i].theta / h};
+    b.start[i] = before[k];
   }
 }
 
@@ -367,8 +409,11 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
     return false;
   }
   if (!isSmall) {
-    choice.giveUp(isLost && !trial.isRough ? trial.error : 0);
-    if (trial.isRough) choice.forget();
+    choice.giveUp(isLost ? trial.error : 0);
+    if (trial.isRough) {
+      choice.takeAsItIs();
+      if (trial.error <= kAgreed * wayOf(w, trial)) takeBest(w, trial);
+    }
   } else if (trial.isOneRow) {
     choice.rest();
   } else if (!trial.hits) {  // a jump is no smoother in shorter substeps
@@ -401,8 +446,9 @@ bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
     trial.error =
         std::max(trial.error, trial.tableau.gain(trial.extent, w.settings.dt, trial.levers));
   } else if (trial.error > allowedError(w)) {
-    trial.isRough = !batches[trial.batch].deformables.empty() && trial.tableau.rows() > 2 &&
-                    !(trial.error < kTakesAway * trial.coarser);
+    const bool isMesh = !batches[trial.batch].deformables.empty();
+    const bool takesAway = trial.tableau.rows() == 2 || trial.error < kTakesAway * trial.coarser;
+    trial.isRough = isMesh && (choice.isRough() || !takesAway);
     return !trial.isRough && choice.extend();
   }
   return false;

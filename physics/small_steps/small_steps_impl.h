@@ -276,6 +276,7 @@ struct SmallSteps::Impl {
   Batch& lanesFor(Model& w, std::span<Trial* const> group);
   void addRow(Model& w, std::span<Trial* const> group, Batch& batch, int steps, StepReport& report);
   void addRow(const Model& w, Trial& trial);
+  void closeMeshes(Model& w, const Batch& batch, double h);
   double wayAhead(const Model& w, const Trial& trial) const;
   double wayOf(const Model& w, const Trial& trial) const;
   bool mayTakeOneRow(const Model& w, const Trial& trial) const;
