@@ -17,7 +17,7 @@ using physics::BodyId;
 
 constexpr double kFiner = 10, kChosenAccuracy = 1e-2, kLeastAccuracy = 1e-11;
 
-// What the scene has that no accuracy steps; empty: nothing.
+// What the scene has that no accuracy steps all the time; empty: nothing.
 std::string notByAccuracy(const scenes::Scene& scene) {
   const physics::Settings& settings = scene.settings;
   if (settings.method != physics::Method::kSmallSteps) {
@@ -28,11 +28,12 @@ std::string notByAccuracy(const scenes::Scene& scene) {
   }
   const scenes::Simulation start(scene);
   const auto& isSoft = start.world().bodies().isSoft;
-  if (std::find(isSoft.begin(), isSoft.end(), true) != isSoft.end()) return "cloth and soft bodies";
+  if (std::find(isSoft.begin(), isSoft.end(), true) != isSoft.end())
+    return "cloth and soft bodies all the time";
   for (const physics::JointReport& joint : start.world().joints()) {
     for (const char* kind : {physics::LinkDef::kWord, physics::RopeLengthDef::kWord,
                              physics::BendDef::kWord, physics::VolumeDef::kWord}) {
-      if (joint.kind == kind) return "ropes and cloth";
+      if (joint.kind == kind) return "ropes and cloth all the time";
     }
   }
   return "";

@@ -40,9 +40,9 @@ struct Trust {
 };
 
 // With an accuracy of its own, or 1e-2 where the scene and `overrides` state none. What it does not
-// step (ropes, cloth, soft bodies, other methods) gets a tenth of the step instead. `read`: the
-// scene with these overrides. Throws InputError where a tenth of the accuracy is finer than scenes
-// may ask for.
+// step all the time (ropes, cloth, soft bodies, other methods) gets a tenth of the step instead.
+// `read`: the scene with these overrides. Throws InputError where a tenth of the accuracy is finer
+// than scenes may ask for.
 using SceneReader = std::function<scenes::Scene(const std::vector<std::string>& overrides)>;
 TrustPlan planTrust(const SceneReader& read, std::vector<std::string> overrides);
 

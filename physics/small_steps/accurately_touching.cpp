@@ -143,42 +143,32 @@ void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
     w.bodies.pose[batch.bodies[k]] = reached.pose[k];
     w.bodies.velocity[batch.bodies[k]] = reached.velocity[k];
   }
-  closeMeshes(w, batch, trial.whole / trial.steps);
+  for (const int d : batch.deformables) close(w, deformables[d], trial.whole / trial.steps);
 }
 
-// What rows lead to is off what holds meshes by the square of what they differ by.
-void SmallSteps::Impl::closeMeshes(Model& w, const Batch& batch, double h) {
-  if (batch.deformables.empty()) return;
+// What rows lead to is off what holds a mesh by the square of what they differ by.
+void SmallSteps::Impl::close(Model& w, Deformable& mesh, double h) {
+  if (!mesh.isAtOnce()) return;
   Bodies& b = w.bodies;
   std::vector<Pose>& before = reached.pose;
   before.clear();
-  for (const BodyId i : batch.bodies) {
+  for (const BodyId i : mesh.bodies()) {
     before.push_back(b.start[i]);
     b.start[i] = b.pose[i];
     moved[i] = {Vec3::Zero(), Vec3::Zero()};
   }
-  const JointStage stage = {w.kinds, b.pose, b.start, h, masses, moved};
-  for (const int d : batch.deformables) {
-    Deformable& mesh = deformables[d];
-    mesh.keep();
-    if (mesh.isAtOnce()) {
-      mesh.solvePositions(stage, w.settings.dt, 0, std::sqrt(allowedError(w)), {});
-    }
-  }
-  for (const BodyId i : batch.bodies) {
+  mesh.keep();
+  mesh.solvePositions({w.kinds, b.pose, b.start, h, masses, moved}, w.settings.dt, 0,
+                      meshesClose(w), {});
+  for (const BodyId i : mesh.bodies()) {
     displace(b.pose[i], moved[i].u, moved[i].theta);
     moved[i] = {h * b.velocity[i].v, h * b.velocity[i].w};
   }
-  for (const int d : batch.deformables) {
-    Deformable& mesh = deformables[d];
-    if (mesh.isAtOnce()) {
-      mesh.prepareVelocities(w.kinds, {b.pose, b.start, h}, masses, moved);
-      mesh.sweepVelocities(masses, moved);
-    }
-    mesh.goBack();
-  }
-  for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
-    const BodyId i = batch.bodies[k];
+  mesh.prepareVelocities(w.kinds, {b.pose, b.start, h}, masses, moved);
+  mesh.sweepVelocities(masses, moved);
+  mesh.goBack();
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const BodyId i = mesh.bodies()[k];
     b.velocity[i] = {moved[i].u / h, moved[i].theta / h};
     b.start[i] = before[k];
   }
@@ -394,11 +384,11 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
   StepChoice& choice = choices[batch.bodies.front()];
   const double dt = w.settings.dt, allowed = allowedError(w);
-  const bool isLost = trial.changes > kMostPlaces || trial.isRough;
+  const bool isLost = trial.changes > kMostPlaces;
   const bool isKnown = trial.columns > 1 || trial.isOneRow;
   const bool isSmall = isKnown && trial.error <= allowed;
   const bool isFew = (!batch.deformables.empty() || trial.places <= kMostPlaces) && !isLost;
-  if (!isSmall && trial.whole > kLeastPart * dt && isFew) {
+  if (!isSmall && trial.whole > kLeastPart * dt && isFew && !trial.isRough) {
     ++trial.told.rejected;
     goBack(w.bodies, batch);
     if (isKnown) {
@@ -408,12 +398,11 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
     }
     return false;
   }
-  if (!isSmall) {
+  if (trial.isRough) {
+    choice.takeAsItIs();
+    if (trial.error <= kAgreed * wayOf(w, trial)) takeBest(w, trial);
+  } else if (!isSmall) {
     choice.giveUp(isLost ? trial.error : 0);
-    if (trial.isRough) {
-      choice.takeAsItIs();
-      if (trial.error <= kAgreed * wayOf(w, trial)) takeBest(w, trial);
-    }
   } else if (trial.isOneRow) {
     choice.rest();
   } else if (!trial.hits) {  // a jump is no smoother in shorter substeps

@@ -57,10 +57,11 @@ void SmallSteps::Impl::learn(Model& w) {
   learnAccurate(w, rows);
   finer.clear();
   for (const BodyId root : roots) {
-    const Mesh mesh = meshOf(rows[root], w.kinds, w.bodies.inverse);
+    SweptRows swept = swept::rowsOf(rows[root], w.kinds);
+    const Mesh mesh = meshOf(swept, w.bodies.inverse);
     const bool isDirect = mesh.fill <= (mesh.points ? kMostFillOfPoints : kMostFill);
     if (mesh.points || !isDirect) {
-      deformables.emplace_back(rows[root], w.kinds, w.bodies.inverse, isDirect);
+      deformables.emplace_back(std::move(swept), w.kinds, w.bodies.inverse, isDirect);
       for (const BodyId i : deformables.back().bodies()) {
         deformableOf[i] = static_cast<int>(deformables.size()) - 1;
       }

@@ -269,6 +269,7 @@ struct SmallSteps::Impl {
   bool advanceAccurately(Model& w, BodyId root, double dt, AccuracyReport& report);
   bool stepsAccurately(const Model& w, const Batch& batch) const;
   double allowedError(const Model& w) const;
+  double meshesClose(const Model& w) const;
   void advanceTouching(Model& w, StepReport& report);
   bool isAlike(const Model& w, const Trial& a, const Trial& b) const;
   bool plan(Model& w, Trial& trial);
@@ -276,7 +277,7 @@ struct SmallSteps::Impl {
   Batch& lanesFor(Model& w, std::span<Trial* const> group);
   void addRow(Model& w, std::span<Trial* const> group, Batch& batch, int steps, StepReport& report);
   void addRow(const Model& w, Trial& trial);
-  void closeMeshes(Model& w, const Batch& batch, double h);
+  void close(Model& w, Deformable& mesh, double h);
   double wayAhead(const Model& w, const Trial& trial) const;
   double wayOf(const Model& w, const Trial& trial) const;
   bool mayTakeOneRow(const Model& w, const Trial& trial) const;

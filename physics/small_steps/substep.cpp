@@ -203,12 +203,17 @@ void SmallSteps::Impl::forgetClosing(Model& w, Batch& batch, double h) {
   }
 }
 
+// The part of a mesh's way that its last step of Newton's may change.
+double SmallSteps::Impl::meshesClose(const Model& w) const {
+  constexpr double kAsIs = std::numeric_limits<double>::infinity();
+  return w.settings.accuracy ? std::sqrt(allowedError(w)) : kAsIs;
+}
+
 // Positions of deformables and their contacts.
 void SmallSteps::Impl::sweepDeformables(Model& w, Batch& batch, double h) {
   if (batch.deformables.empty() && batch.softRows.empty()) return;
   const double push = w.settings.contact ? w.settings.contact->maxSeparationSpeed * h : 0;
-  constexpr double kAsIs = std::numeric_limits<double>::infinity();
-  const double closed = w.settings.accuracy ? std::sqrt(allowedError(w)) : kAsIs;
+  const double closed = meshesClose(w);
   const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
   for (const int k : batch.deformables) {
     deformables[k].solvePositions(stage, w.settings.dt, push, closed, batch.softRows);

@@ -12,13 +12,10 @@ namespace physics {
 
 using namespace swept;
 
-Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
-            std::span<const InverseMass> masses) {
+Mesh meshOf(const SweptRows& rows, std::span<const InverseMass> masses) {
   Mesh mesh;
   std::map<BodyId, int> place;
   std::vector<std::array<BodyId, 2>> joined;
-  SweptRows rows;
-  for (const JointRef& ref : refs) add(rows, kinds, ref);
   forEachRow(rows, [&](const SweptItem& swept) {
     const std::vector<BodyId>& bodies = swept.bodies;
     mesh.points = mesh.points || (bodies.size() != 1 && !swept.turns);
@@ -59,11 +56,11 @@ double ownOfPieces(const SweptItem& swept, std::span<const JointMass> masses) {
 
 }  // namespace
 
-Deformable::Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
-                       std::span<const InverseMass> masses, bool direct) {
-  size_ = refs.size();
-  for (const JointRef& ref : refs) add(rows_, kinds, ref);
+Deformable::Deformable(SweptRows rows, const Kinds& kinds, std::span<const InverseMass> masses,
+                       bool direct)
+    : rows_(std::move(rows)) {
   forEachRow(rows_, [&](const SweptItem& swept) {
+    ++size_;
     for (const BodyId body : swept.bodies) {
       if (masses[body].m > 0) bodies_.push_back(body);
     }

@@ -27,8 +27,7 @@ struct Mesh {
   bool points = false;
   double fill = 0;
 };
-Mesh meshOf(const std::vector<JointRef>& refs, const Kinds& kinds,
-            std::span<const InverseMass> masses);
+Mesh meshOf(const SweptRows& rows, std::span<const InverseMass> masses);
 // Of a factor worth having: a net of bodies, 25 by 25, has 192; solved at once it takes as long as
 // swept, and its joints are open by a thousandth. Rows of points are cheap to sweep.
 inline constexpr double kMostFill = 400, kMostFillOfPoints = 16;
@@ -108,9 +107,7 @@ struct PointFactor {
 
 class Deformable {
  public:
-  // `refs`: its constraints, in the table's order.
-  Deformable(const std::vector<JointRef>& refs, const Kinds& kinds,
-             std::span<const InverseMass> masses, bool direct);
+  Deformable(SweptRows rows, const Kinds& kinds, std::span<const InverseMass> masses, bool direct);
 
   std::span<const BodyId> bodies() const { return bodies_; }
   bool isDirect() const { return factor_ != nullptr; }

@@ -7,7 +7,6 @@ namespace physics {
 namespace {
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
-constexpr double kLeastCompliance = 1e-7;  // of K's mean, where K has directions without stiffness
 
 template <class C>
 constexpr bool kFits = C::kBodies != kMany&& C::kBodies <= JointRow::kMostBodies;
@@ -29,17 +28,14 @@ void takeGradients(const C& item, const Evaluated<C>& row, const Configuration& 
 template <class C>
 void takeForce(const Evaluated<C>& push, JointRow& joint) {
   constexpr int kRows = C::kRows;
-  const double mean = push.k.trace() / kRows;
   joint.longest = push.longest;
-  if (!(mean > 0)) {
+  if (!(push.k.trace() > 0)) {
     joint.role = JointRow::Role::kLoad;
     joint.c.template head<kRows>() = push.f;
     return;
   }
   joint.role = JointRow::Role::kForce;
-  Eigen::Matrix<double, kRows, kRows> k = 0.5 * (push.k + push.k.transpose());
-  k.diagonal().array() += kLeastCompliance * mean;
-  const Eigen::Matrix<double, kRows, kRows> compliance = inverseOrNan(k);
+  const Eigen::Matrix<double, kRows, kRows> compliance = complianceOf(push.k);
   joint.alpha.template topLeftCorner<kRows, kRows>() = compliance;
   joint.c.template head<kRows>() = -(compliance * push.f);
 }
@@ -136,12 +132,6 @@ void write(K& kind, int index, const Vec3& lambda, double dt) {
   kind.set.lambda[index].step = dt;
 }
 
-template <class K>
-bool carriesItem(const K& kind, int index) {
-  if constexpr (kFits<typename K::Item>) return !kind.set.lambda[index].total.isZero(0);
-  return false;
-}
-
 template <class C>
 Nature natureOfItem(const C& item) {
   if constexpr (!kFits<C>) return Nature::kOther;
@@ -160,7 +150,6 @@ struct Calls {
   void (*evaluate)(const Kinds&, int, const Configuration&, JointRow&);
   Multiplier (*read)(const Kinds&, int);
   void (*write)(Kinds&, int, const Vec3&, double);
-  bool (*carries)(const Kinds&, int);
 };
 
 template <std::size_t... I>
@@ -174,8 +163,7 @@ constexpr auto callsOf(std::index_sequence<I...>) {
       [](const Kinds& kinds, int item) { return read(std::get<I>(kinds), item); },
       [](Kinds& kinds, int item, const Vec3& lambda, double dt) {
         write(std::get<I>(kinds), item, lambda, dt);
-      },
-      [](const Kinds& kinds, int item) { return carriesItem(std::get<I>(kinds), item); }}...};
+      }}...};
 }
 constexpr auto kCalls = callsOf(std::make_index_sequence<std::tuple_size_v<Kinds>>{});
 
@@ -201,6 +189,8 @@ void writeMultiplier(Kinds& kinds, JointRef ref, const Vec3& lambda, double dt) 
   kCalls[ref.kind].write(kinds, ref.item, lambda, dt);
 }
 
-bool carries(const Kinds& kinds, JointRef ref) { return kCalls[ref.kind].carries(kinds, ref.item); }
+bool carries(const Kinds& kinds, JointRef ref) {
+  return !readMultiplier(kinds, ref).total.isZero(0);
+}
 
 }  // namespace physics

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "physics/base/inverse.h"
 #include "physics/constraints/kinds.h"
 #include "physics/solver/joint_block.h"
 
@@ -19,6 +20,16 @@ struct JointRow {
   std::array<Mat3, kMostBodies> linear, angular;  // J, by rows
   std::array<Vec3, kMostBodies> arm;              // world, where it pulls
 };
+
+// K^-1 of a push that falls off in some directions only: in the others as stiff as this part of its
+// mean.
+template <typename Matrix>
+Matrix complianceOf(const Matrix& stiffness) {
+  constexpr double kLeastStiffness = 1e-7;
+  Matrix even = 0.5 * (stiffness + stiffness.transpose());
+  even.diagonal().array() += kLeastStiffness * stiffness.diagonal().mean();
+  return inverseOrNan(even);
+}
 
 // Before it is evaluated: rows of J that a kind does not have are left as they are.
 inline void clear(JointRow& row) {

@@ -44,13 +44,10 @@ void takeForce(const typename SweptRow<kRows>::Vector& f, const typename SweptRo
                SweptRow<kRows>& swept) {
   swept.low = -kUnbounded;
   swept.high = kUnbounded;
-  const double mean = k.trace() / kRows;
-  swept.isLoad = !(mean > 0);
+  swept.isLoad = !(k.trace() > 0);
   swept.constant = f;
   if (swept.isLoad) return;
-  typename SweptRow<kRows>::Matrix even = 0.5 * (k + k.transpose());
-  even.diagonal().array() += kLeastStiffness * mean;
-  swept.alpha = even.inverse();
+  swept.alpha = complianceOf(k);
   swept.constant = -(swept.alpha * f);
 }
 
@@ -131,7 +128,11 @@ constexpr auto kEvaluates = evaluatesOf<kRows>(AllKinds{});
 
 }  // namespace
 
-void add(SweptRows& rows, const Kinds& kinds, JointRef ref) { kAdds[ref.kind](kinds, ref, rows); }
+SweptRows rowsOf(std::span<const JointRef> refs, const Kinds& kinds) {
+  SweptRows rows;
+  for (const JointRef ref : refs) kAdds[ref.kind](kinds, ref, rows);
+  return rows;
+}
 
 template <int kRows>
 void evaluate(const Kinds& kinds, const Configuration& at, Seen seen, Row<kMany, 1>& many,

@@ -75,12 +75,8 @@ namespace swept {
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-// Of a push that falls off in some directions only: how stiff it is taken to be in the others,
-// relative to its mean.
-inline constexpr double kLeastStiffness = 1e-7;
-
-// Adds the constraint after those that are there.
-void add(SweptRows& rows, const Kinds& kinds, JointRef ref);
+// Of these, in the table's order.
+SweptRows rowsOf(std::span<const JointRef> refs, const Kinds& kinds);
 
 enum class Seen { kGradients, kAll };  // J and c alone; or alpha, constant and bounds as well
 // `many`: to work in.

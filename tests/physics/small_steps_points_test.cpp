@@ -255,12 +255,6 @@ TEST(SmallStepsContacts, ABallThatRollsKeepsItsSpeed) {
   EXPECT_NEAR(kineticOf(world, ball), start, 1e-3 * start);  // with stale points: 3 % more
 }
 
-Settings byAccuracy(double accuracy) {
-  Settings settings = byDefault(false);
-  settings.accuracy = accuracy;
-  return settings;
-}
-
 double meanHeightOf(const World& world, const SoftParts& parts) {
   double sum = 0;
   for (const BodyId i : parts.nodes) sum += world.bodies().pose[i].x.y();
@@ -269,7 +263,9 @@ double meanHeightOf(const World& world, const SoftParts& parts) {
 
 // By the default it is 5 mm behind after half a second.
 TEST(SmallStepsMesh, ByAnAccuracyASoftBoxFallsAlongTheParabola) {
-  World world(byAccuracy(1e-3));
+  Settings settings = byDefault(false);
+  settings.accuracy = 1e-3;
+  World world(settings);
   SoftBodyDef box;
   box.box = TetBox{Vec3(1, 0.5, 0.25), {3, 2, 2}};
   const SoftParts parts = add(world, box);
