@@ -28,7 +28,7 @@ void Pairs::archive(Archive& a) {
     setMotion(items_[i], from.q.toRotationMatrix(), from, to);
   }
   for (std::size_t t = 0; t < itemOfTree_.size(); ++t) {
-    tree_.add(treeBounds_[t], items_[itemOfTree_[t]].solid.kind == Kind::point);
+    tree_.add(treeBounds_[t], items_[itemOfTree_[t]].solid.kind == SolidKind::point);
   }
 }
 

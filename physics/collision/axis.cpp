@@ -102,7 +102,7 @@ Axis bestSides(const Solid& a, const Solid& b, const Relative& pose) {
   for (const Vec3& d : {apart, Vec3(cross.dot(pose.t) < 0 ? -cross : cross)}) {
     if (d.squaredNorm() < kParallel * (a.size * a.size + b.size * b.size)) continue;
     const Vec3 n = d.normalized();
-    const bool square = std::abs(n.dot(u)) < kSquare || a.kind != Kind::cylinder;
+    const bool square = std::abs(n.dot(u)) < kSquare || a.kind != SolidKind::cylinder;
     if (!square || std::abs(n.y()) > kSquare) continue;  // b is a cylinder
     keepLarger(best, n, separationAlong(a, b, pose, n), 0, 0);
   }
@@ -132,7 +132,7 @@ const Axis& Axes::preferred(double tolerance) const {
 }
 
 Line lineOf(const Solid& s, int index) {
-  if (s.kind == Kind::box) {  // as in boxHull(), out of the cache's way
+  if (s.kind == SolidKind::box) {  // as in boxHull(), out of the cache's way
     constexpr int kEnds[12][2] = {{0, 1}, {0, 2}, {0, 4}, {1, 3}, {1, 5}, {2, 3},
                                   {2, 6}, {3, 7}, {4, 5}, {4, 6}, {5, 7}, {6, 7}};
     return {cornerOf(s, kEnds[index][0]), cornerOf(s, kEnds[index][1])};

@@ -58,7 +58,7 @@ struct Collider::Impl {
 
   // Nothing was found, and along the direction that told them apart they do not come near.
   static bool staysApart(Watch& watch, const Item& a, const Item& b, double near) {
-    if (b.solid.kind == Kind::triangles) return false;  // no one direction tells them apart
+    if (b.solid.kind == SolidKind::triangles) return false;  // no one direction tells them apart
     const Vec3 normal = watch.normal(), n = b.R * normal;
     const double reachA = reachAlong(a.solid, a.R.transpose() * -n);
     const double apart = n.dot(a.x - b.x) - reachA - reachAlong(b.solid, normal);
@@ -129,7 +129,7 @@ struct Collider::Impl {
     watch.reach = reach + kSpare * step.margin;
     found.pose = pose;
     const double near = b.isPlane || isShort(a, b, reach - margin) ? reach : margin;
-    if (b.solid.kind == Kind::triangles) return lookAtMesh(watch, found, a, b, near, reach);
+    if (b.solid.kind == SolidKind::triangles) return lookAtMesh(watch, found, a, b, near, reach);
     const double turn = a.turn + b.turn;
     watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, turn, found.manifold);
     watch.setNormal(found.manifold.normal);

@@ -127,7 +127,7 @@ bool refine(const Solid& a, const Solid& b, const Relative& pose, double toleran
 }
 
 bool isExact(const Solid& a, const Solid& b) {  // facets and edges are all there is
-  const bool curved = a.kind == Kind::cylinder || b.kind == Kind::cylinder;
+  const bool curved = a.kind == SolidKind::cylinder || b.kind == SolidKind::cylinder;
   return !curved && !tooManyEdges(a, b);
 }
 
@@ -195,9 +195,9 @@ double heightOver(const Solid& a, const Solid& plane, const Relative& pose) {
   return plane.normal.dot(pose.R * low + pose.t) - plane.offset - a.rounding;
 }
 
-bool isRound(const Solid& s) { return s.kind <= Kind::capsule; }
+bool isRound(const Solid& s) { return s.kind <= SolidKind::capsule; }
 bool isBoxy(const Solid& a, const Solid& b) {
-  return b.kind == Kind::box && (a.kind == Kind::box || a.kind == Kind::capsule);
+  return b.kind == SolidKind::box && (a.kind == SolidKind::box || a.kind == SolidKind::capsule);
 }
 
 }  // namespace
@@ -223,16 +223,16 @@ void touchParting(const Solid& a, const Solid& b, const Relative& pose, const Ve
 double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
              double turn, Manifold& out) {
   const double size = smallerSize(a, b);
-  const bool rim = a.kind == Kind::cylinder || b.kind == Kind::cylinder;
+  const bool rim = a.kind == SolidKind::cylinder || b.kind == SolidKind::cylinder;
   const Limits limits{keep, kTie * size, (rim ? kRimDeeper : kDeeper) * size};
   out.count = 0;
   Contacts contacts;
   double distance = 0;
-  if (b.kind == Kind::plane) {
+  if (b.kind == SolidKind::plane) {
     distance = touchPlane(a, b, pose, contacts);
   } else if (isRound(b)) {
     distance = touchRound(a, b, pose, reach, contacts);
-  } else if (a.kind <= Kind::sphere) {
+  } else if (a.kind <= SolidKind::sphere) {
     distance = touchPoint(a, b, pose, contacts);
   } else {
     const double radii = a.rounding + b.rounding, tolerance = toleranceOf(a, b, turn);
@@ -266,12 +266,12 @@ Apart apart(const Solid& a, const Solid& b, const Relative& pose) {
 
 double signedDistance(const Solid& a, const Solid& b, const Relative& pose) {
   if (a.kind > b.kind) return signedDistance(b, a, inverse(pose));
-  if (b.kind == Kind::triangles)
-    return a.kind >= Kind::plane ? kInfinite : meshDistance(a, b, pose);
+  if (b.kind == SolidKind::triangles)
+    return a.kind >= SolidKind::plane ? kInfinite : meshDistance(a, b, pose);
   Contacts contacts;
-  if (b.kind == Kind::plane) return a.kind == b.kind ? kInfinite : heightOver(a, b, pose);
+  if (b.kind == SolidKind::plane) return a.kind == b.kind ? kInfinite : heightOver(a, b, pose);
   if (isRound(b)) return touchRound(a, b, pose, -kInfinite, contacts);
-  if (a.kind <= Kind::sphere) return touchPoint(a, b, pose, contacts);
+  if (a.kind <= SolidKind::sphere) return touchPoint(a, b, pose, contacts);
   const double radii = a.rounding + b.rounding;
   const Distance nearest = coreDistance(a, b, pose);
   if (!nearest.overlap) return nearest.distance - radii;

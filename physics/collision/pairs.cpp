@@ -94,7 +94,7 @@ void Pairs::addItem(BodyId body, const Shape& shape, bool movable) {
   item.body = body;
   item.movable = movable;
   item.solid = makeSolid(shape);
-  item.isPlane = item.solid.kind == Kind::plane;
+  item.isPlane = item.solid.kind == SolidKind::plane;
   require(!movable || !item.isPlane, "collider: a plane must not be movable");
   if (item.isPlane) planes_.push_back(static_cast<int>(items_.size()));
   items_.push_back(std::move(item));
@@ -121,7 +121,7 @@ int Pairs::indexOf(BodyId body) const {
 
 bool Pairs::wanted(const Item& p, const Item& q) const {
   if ((!p.movable && !q.movable) || p.body == q.body) return false;
-  if (p.solid.kind == Kind::point && q.solid.kind == Kind::point) return false;
+  if (p.solid.kind == SolidKind::point && q.solid.kind == SolidKind::point) return false;
   const std::pair<BodyId, BodyId> pair(std::minmax(p.body, q.body));
   return !std::binary_search(ignored_.begin(), ignored_.end(), pair);
 }
@@ -157,8 +157,8 @@ void Pairs::name(const Watch& watch, Manifold& manifold) const {
   const Item &a = items_[watch.a], &b = items_[watch.b];
   manifold.a = a.body;
   manifold.b = b.body;
-  manifold.radial = b.solid.kind <= Kind::sphere && !a.isPart && !b.isPart;
-  manifold.carried = b.solid.kind >= Kind::box;
+  manifold.radial = b.solid.kind <= SolidKind::sphere && !a.isPart && !b.isPart;
+  manifold.carried = b.solid.kind >= SolidKind::box;
   manifold.pair = pairKey(watch.a, watch.b);
 }
 
@@ -293,7 +293,7 @@ void Pairs::toTree(int i) {
     treeIndex_[i] = static_cast<int>(itemOfTree_.size());
     itemOfTree_.push_back(i);
     treeBounds_.push_back(fat_[i]);
-    tree_.add(fat_[i], items_[i].solid.kind == Kind::point);
+    tree_.add(fat_[i], items_[i].solid.kind == SolidKind::point);
   }
   treeBounds_[treeIndex_[i]] = fat_[i];
   movedTree_.push_back(treeIndex_[i]);

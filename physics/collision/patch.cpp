@@ -102,7 +102,7 @@ void cutSegment(Patch& patch, const Out& out, std::uint32_t side) {
 int nearestFace(const Solid& s, const Vec3& d) {
   constexpr double kEqual = 1e-9;  // of cosines: the first of faces that differ by rounding alone
   int best = 0;
-  if (s.kind == Kind::box) {
+  if (s.kind == SolidKind::box) {
     for (int axis = 1; axis < 3; ++axis) {
       if (std::abs(d[axis]) > std::abs(d[best]) + kEqual) best = axis;
     }
@@ -117,7 +117,7 @@ int nearestFace(const Solid& s, const Vec3& d) {
 
 void facing(const Solid& s, const Vec3& d, Patch& patch) {
   if (s.isPolyhedron()) return facetPatch(s, nearestFace(s, d), patch);
-  if (s.kind == Kind::cylinder) {
+  if (s.kind == SolidKind::cylinder) {
     return facesWithCap(d) ? capPatch(s, d.y() > 0, d, patch) : sidePatch(s, d, patch);
   }
   patch.count = 0;
@@ -128,25 +128,25 @@ void facing(const Solid& s, const Vec3& d, Patch& patch) {
 
 int facetCount(const Solid& s) {
   if (s.isPolyhedron()) return static_cast<int>(s.hull->faces.size());
-  return s.kind == Kind::cylinder ? 2 : 0;
+  return s.kind == SolidKind::cylinder ? 2 : 0;
 }
 
 Facet facet(const Solid& s, int index) {
-  if (s.kind == Kind::box) {
+  if (s.kind == SolidKind::box) {
     Vec3 normal = Vec3::Zero();
     normal[index / 2] = index % 2 ? 1 : -1;
     return {normal, s.half[index / 2]};
   }
-  if (s.kind == Kind::cylinder) return {Vec3(0, index == 1 ? 1 : -1, 0), s.halfLength};
+  if (s.kind == SolidKind::cylinder) return {Vec3(0, index == 1 ? 1 : -1, 0), s.halfLength};
   const Hull::Face& face = s.hull->faces[index];
   return {face.normal, face.offset};
 }
 
 void facetPatch(const Solid& s, int index, Patch& patch) {
-  if (s.kind == Kind::cylinder) return capPatch(s, index == 1, Vec3::Zero(), patch);
+  if (s.kind == SolidKind::cylinder) return capPatch(s, index == 1, Vec3::Zero(), patch);
   patch.count = 0;
   patch.radius = 0;
-  if (s.kind == Kind::box) {  // as below, out of the hull's way
+  if (s.kind == SolidKind::box) {  // as below, out of the hull's way
     for (const int id : kBoxFaces[index]) {
       patch.add(cornerOf(s, id), static_cast<std::uint32_t>(id));
     }

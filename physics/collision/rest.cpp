@@ -66,7 +66,7 @@ void Pairs::wake(std::span<const BodyId> bodies) {
 bool Pairs::canTouch() const {
   std::int64_t solids = 0, points = 0, fixedSolids = 0, fixedPoints = 0;
   for (const Item& item : items_) {
-    const bool isPoint = item.solid.kind == Kind::point;
+    const bool isPoint = item.solid.kind == SolidKind::point;
     (isPoint ? points : solids) += 1;
     if (!item.movable) (isPoint ? fixedPoints : fixedSolids) += 1;
   }
@@ -79,7 +79,8 @@ bool Pairs::canTouch() const {
   for (const auto& [a, b] : ignored_) {
     const int p = indexOf(a), q = indexOf(b);
     if (p < 0 || q < 0 || (!items_[p].movable && !items_[q].movable)) continue;
-    const bool points = items_[p].solid.kind == Kind::point && items_[q].solid.kind == Kind::point;
+    const bool points =
+        items_[p].solid.kind == SolidKind::point && items_[q].solid.kind == SolidKind::point;
     pairs -= points ? 0 : partsOf(p) * partsOf(q);
   }
   return pairs > 0;

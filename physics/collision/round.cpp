@@ -137,9 +137,9 @@ double touchRound(const Solid& a, const Solid& b, const Relative& pose, double r
 }
 
 double touchPoint(const Solid& a, const Solid& b, const Relative& pose, Contacts& contacts) {
-  const Nearest nearest = b.kind == Kind::box        ? nearestOnBox(b, pose.t)
-                          : b.kind == Kind::cylinder ? nearestOnCylinder(b, pose.t)
-                                                     : nearestOnHull(b, pose.t);
+  const Nearest nearest = b.kind == SolidKind::box        ? nearestOnBox(b, pose.t)
+                          : b.kind == SolidKind::cylinder ? nearestOnCylinder(b, pose.t)
+                                                          : nearestOnHull(b, pose.t);
   contacts.n = nearest.n;
   contacts.radiusA = a.rounding;
   contacts.radiusB = nearest.radius;

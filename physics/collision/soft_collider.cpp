@@ -32,7 +32,7 @@ Placed place(const SoftElement& element, std::span<const Pose> start) {
   const Vec3 along = to - from;
   const double length = along.norm();
   const bool line = length > 1e-12;  // 1e4 roundings at 1 m: it has a direction
-  placed.solid.kind = line ? Kind::capsule : Kind::sphere;
+  placed.solid.kind = line ? SolidKind::capsule : SolidKind::sphere;
   placed.solid.halfLength = 0.5 * length;
   placed.solid.coreRadius = placed.solid.half.y() = 0.5 * length;
   placed.solid.size = placed.solid.coreRadius + element.radius;
@@ -82,7 +82,7 @@ void SoftCollider::takeMotion(std::span<const Pose> start, std::span<const Pose>
     rigid.rotation = from.q.toRotationMatrix();
     rigid.move = to.x - from.x;
     rigid.turn = 0;
-    if (rigid.solid.kind == Kind::plane) continue;
+    if (rigid.solid.kind == SolidKind::plane) continue;
     rigid.turn = 2 * (to.q.coeffs() - from.q.coeffs()).norm() * rigid.solid.size;
     rigid.path = around(boundsAt(rigid.solid, from.x, rigid.rotation),
                         boundsAt(rigid.solid, to.x, to.q.toRotationMatrix()));
@@ -97,7 +97,7 @@ bool SoftCollider::mayTouch(const SoftElement& element, const Rigid& rigid,
   if (isIgnored(element, rigid.body)) return false;
   const Vec3 &a = start[element.from].x, &b = end[element.from].x;
   const Vec3 &c = start[element.to].x, &d = end[element.to].x;
-  if (rigid.solid.kind == Kind::plane) {
+  if (rigid.solid.kind == SolidKind::plane) {
     const Vec3 n = rigid.rotation * rigid.solid.normal;
     const double low = std::min({n.dot(a), n.dot(b), n.dot(c), n.dot(d)});
     return low - n.dot(start[rigid.body].x) - rigid.solid.offset < element.radius + margin;
@@ -118,7 +118,7 @@ void SoftCollider::look(int index, const Rigid& rigid, std::span<const Pose> sta
   const double reach = margin + approach + rigid.turn;
   const Relative pose = relativePose(placed.pose, rigid.at(start[rigid.body]));
   Manifold manifold;
-  if (rigid.solid.kind == Kind::triangles) {
+  if (rigid.solid.kind == SolidKind::triangles) {
     std::vector<Manifold> more;
     int calls = 0;
     bool met = false;

@@ -14,17 +14,17 @@
 namespace physics::collision {
 namespace {
 
-void fill(Solid& s, const PointShape&) { s.kind = Kind::point; }
+void fill(Solid& s, const PointShape&) { s.kind = SolidKind::point; }
 
 void fill(Solid& s, const Sphere& sphere) {
-  s.kind = Kind::sphere;
+  s.kind = SolidKind::sphere;
   s.rounding = s.radius = sphere.radius;
   s.high = Vec3::Constant(sphere.radius);
   s.thickness = 2 * sphere.radius;
 }
 
 void fill(Solid& s, const Capsule& capsule) {
-  s.kind = Kind::capsule;
+  s.kind = SolidKind::capsule;
   s.rounding = s.radius = capsule.radius;
   s.halfLength = s.coreRadius = s.half.y() = 0.5 * capsule.length;
   s.high = Vec3(s.radius, s.radius + s.halfLength, s.radius);
@@ -32,7 +32,7 @@ void fill(Solid& s, const Capsule& capsule) {
 }
 
 void fill(Solid& s, const Cylinder& cylinder) {
-  s.kind = Kind::cylinder;
+  s.kind = SolidKind::cylinder;
   s.radius = cylinder.radius;
   s.halfLength = 0.5 * cylinder.length;
   s.coreRadius = std::sqrt(s.radius * s.radius + s.halfLength * s.halfLength);
@@ -76,20 +76,20 @@ void fillPolyhedron(Solid& s) {
 }
 
 void fill(Solid& s, const Box& box) {
-  s.kind = Kind::box;
+  s.kind = SolidKind::box;
   s.half = 0.5 * box.size;
   s.hull = std::make_shared<const Hull>(boxHull(s.half));
   fillPolyhedron(s);
 }
 
 void fill(Solid& s, const Convex& convex) {
-  s.kind = Kind::convex;
+  s.kind = SolidKind::convex;
   s.hull = convex.hull;
   fillPolyhedron(s);
 }
 
 void fill(Solid& s, const Plane& plane) {
-  s.kind = Kind::plane;
+  s.kind = SolidKind::plane;
   s.normal = plane.normal.normalized();
   s.offset = plane.offset / plane.normal.norm();
 }
@@ -99,7 +99,7 @@ void fill(Solid&, const Compound&) {
 }
 
 void fill(Solid& s, const Triangles& triangles) {
-  s.kind = Kind::triangles;
+  s.kind = SolidKind::triangles;
   s.triangles = std::make_shared<const TriangleTree>(triangles.mesh);
   s.low = s.high = triangles.mesh->vertices.at(triangles.mesh->faces[0].vertices[0]);
   for (const TriangleMesh::Face& face : triangles.mesh->faces) {
@@ -131,13 +131,13 @@ Solid makeSolid(const Shape& shape) {
   massProperties(shape);  // its checks on sizes
   Solid solid;
   std::visit([&](const auto& s) { fill(solid, s); }, shape);
-  if (!solid.isPolyhedron() && solid.kind != Kind::triangles) solid.low = -solid.high;
-  if (solid.kind != Kind::plane) solid.size = boundingRadius(shape);
+  if (!solid.isPolyhedron() && solid.kind != SolidKind::triangles) solid.low = -solid.high;
+  if (solid.kind != SolidKind::plane) solid.size = boundingRadius(shape);
   return solid;
 }
 
 double smallerSize(const Solid& a, const Solid& b) {
-  if (b.kind == Kind::triangles) return a.size;
+  if (b.kind == SolidKind::triangles) return a.size;
   if (a.size == 0 || b.size == 0) return a.size + b.size;
   return std::min(a.size, b.size);
 }
@@ -149,17 +149,17 @@ Relative relativePose(const Pose& a, const Pose& b) {
 
 Vec3 support(const Solid& s, const Vec3& d) {
   switch (s.kind) {
-    case Kind::capsule:
+    case SolidKind::capsule:
       return {0, std::copysign(s.halfLength, d.y()), 0};
-    case Kind::cylinder: {
+    case SolidKind::cylinder: {
       const double across = std::sqrt(d.x() * d.x() + d.z() * d.z());
       const double scale = across > 0 ? s.radius / across : 0;
       return {scale * d.x(), std::copysign(s.halfLength, d.y()), scale * d.z()};
     }
-    case Kind::box:
+    case SolidKind::box:
       return {std::copysign(s.half.x(), d.x()), std::copysign(s.half.y(), d.y()),
               std::copysign(s.half.z(), d.z())};
-    case Kind::convex:
+    case SolidKind::convex:
       return furthestVertex(*s.hull, d);
     default:
       return Vec3::Zero();
@@ -167,10 +167,10 @@ Vec3 support(const Solid& s, const Vec3& d) {
 }
 
 Bounds boundsAt(const Solid& s, const Vec3& x, const Mat3& R) {
-  if (s.kind == Kind::point || s.kind == Kind::sphere) {
+  if (s.kind == SolidKind::point || s.kind == SolidKind::sphere) {
     return {x - Vec3::Constant(s.radius), x + Vec3::Constant(s.radius)};
   }
-  if (s.kind == Kind::capsule) {
+  if (s.kind == SolidKind::capsule) {
     const Vec3 reach = s.halfLength * R.col(1).cwiseAbs() + Vec3::Constant(s.radius);
     return {x - reach, x + reach};
   }

@@ -11,7 +11,7 @@
 namespace physics::collision {
 
 // In the order of the pairs: a manifold's body a never has a later kind than its body b.
-enum class Kind { point, sphere, capsule, cylinder, box, convex, plane, triangles };
+enum class SolidKind { point, sphere, capsule, cylinder, box, convex, plane, triangles };
 
 // An edge of a polyhedron with the outward normals of its two faces.
 struct Edge {
@@ -21,7 +21,7 @@ struct Edge {
 
 class TriangleTree;
 struct Solid {
-  Kind kind = Kind::point;
+  SolidKind kind = SolidKind::point;
   double size = 0;                    // bounding radius; 0 for point and plane
   Vec3 half = Vec3::Zero();           // of the core of a box or capsule
   double rounding = 0;                // radius around the core: sphere, capsule
@@ -37,8 +37,8 @@ struct Solid {
 
   bool isSheet = false;  // a flat polyhedron, without an inside
 
-  bool isPolyhedron() const { return kind == Kind::box || kind == Kind::convex; }
-  bool isLine() const { return kind == Kind::capsule || kind == Kind::cylinder; }
+  bool isPolyhedron() const { return kind == SolidKind::box || kind == SolidKind::convex; }
+  bool isLine() const { return kind == SolidKind::capsule || kind == SolidKind::cylinder; }
 };
 
 // Of two that may touch: what their tolerances are shares of. A point, a plane and a mesh have
@@ -72,8 +72,9 @@ inline Vec3 cornerOf(const Solid& box, int corner) {
 
 // How far the solid reaches along the unit vector d (body frame); a plane only along its normal.
 inline double reachAlong(const Solid& s, const Vec3& d) {
-  if (s.kind <= Kind::capsule || s.kind == Kind::box) return s.half.dot(d.cwiseAbs()) + s.rounding;
-  return s.kind == Kind::plane ? s.offset : support(s, d).dot(d);
+  if (s.kind <= SolidKind::capsule || s.kind == SolidKind::box)
+    return s.half.dot(d.cwiseAbs()) + s.rounding;
+  return s.kind == SolidKind::plane ? s.offset : support(s, d).dot(d);
 }
 
 // Bounds of the solid at a pose, world frame.

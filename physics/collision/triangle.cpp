@@ -78,7 +78,7 @@ Side bestOther(const Solid& a, const Triangle& t, const Relative& pose, double e
     const Vec3 n = -(pose.R * facet(a, i).normal);
     offer(best, Side::From::facetA, n, separationAlong(a, t.solid, pose, n), i);
   }
-  if (a.kind == Kind::box) {
+  if (a.kind == SolidKind::box) {
     for (int i = 0; i < 3; ++i) offerEdges(a, t, pose, pose.R.col(i), best);
   } else if (a.isPolyhedron()) {
     for (const Edge& edge : a.edges) {
@@ -133,7 +133,7 @@ double touchAbout(const Solid& a, const Triangle& t, const Relative& pose, doubl
     return contacts.n = side.n, side.separation - a.rounding;
   const double tolerance = kFlat * smallerSize(a, t.solid);
   // Of what is round no list of directions is all.
-  if (a.kind == Kind::cylinder || std::max(side.separation, face.separation) > 0) {
+  if (a.kind == SolidKind::cylinder || std::max(side.separation, face.separation) > 0) {
     takeNearest(a, t, pose, tolerance, side, contacts);
   }
   const double distance = std::max(side.separation, face.separation) - a.rounding;
@@ -162,7 +162,7 @@ Triangle::Triangle() {
   hull_->faces[0].vertices = {0, 1, 2};
   hull_->faces[1].vertices = {0, 2, 1};
   solid.hull = hull_;
-  solid.kind = Kind::convex;
+  solid.kind = SolidKind::convex;
   solid.isSheet = true;
 }
 

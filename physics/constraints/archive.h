@@ -29,8 +29,8 @@ inline void archive(Archive& a, SoftContact& contact) {
     normalTotal, step, frictionTotal);
 }
 
-template <class C>
-void archive(Archive& a, Multipliers<C>& multipliers) {
+template <int kRows>
+void archive(Archive& a, Totals<kRows>& multipliers) {
   auto& [total, loaded, step] = multipliers;
   a(total, loaded, step);
 }

@@ -56,6 +56,11 @@ struct Gradients {
   double longest = std::numeric_limits<double>::infinity();  // bound of the total's length
 };
 
+template <class C>
+using VectorOf = Eigen::Matrix<double, C::kRows, 1>;
+template <class C>
+using MatrixOf = Eigen::Matrix<double, C::kRows, C::kRows>;
+
 // Error, gradient and bounds of one constraint: c = 0, or one-sided where the total is bounded.
 template <int kBodies, int kRows>
 struct Row : Gradients<kBodies, kRows> {
@@ -75,7 +80,8 @@ struct Push : Gradients<kBodies, kRows> {
 template <class C>
 concept Force = requires(const C& item, Push<C::kBodies, C::kRows>& push) {
   item.evaluate(Configuration{}, push);
-};
+}
+|| C::kIsForce;  // the last: frozen_row.h
 
 template <class C>
 using Evaluated =
@@ -88,34 +94,59 @@ constexpr bool isAngular() {
   return true;
 }
 
+// Whether it has J along x, along theta; of a frozen row it says so itself.
 template <class C>
-struct Response {  // M^-1 J^T, per body
-  PerBody<C::kBodies, Eigen::Matrix<double, 3, C::kRows>> linear, angular;
+bool hasLinear(const C& item) {
+  if constexpr (requires { C::kLinear; })
+    return C::kLinear;
+  else
+    return item.isLinear;
+}
+template <class C>
+bool hasAngular(const C& item) {
+  if constexpr (requires { C::kLinear; })
+    return isAngular<C>();
+  else
+    return item.isAngular;
+}
+
+// These go by the numbers of bodies and rows alone, so that kinds of one shape share them.
+template <int kBodies, int kRows>
+struct ResponseOf {  // M^-1 J^T, per body
+  PerBody<kBodies, Eigen::Matrix<double, 3, kRows>> linear, angular;
 };
+template <class C>
+using Response = ResponseOf<C::kBodies, C::kRows>;
 
 // What a visit works in. Kept by the set where its size differs from one constraint to the next.
-template <class C>
-struct Scratch {
-  Evaluated<C> row;
-  Response<C> response;
+template <class RowOrPush, class ResponseToIt>
+struct RowAndResponse {
+  RowOrPush row;
+  ResponseToIt response;
 };
-
 template <class C>
-struct Multipliers {
-  using Vector = typename Row<C::kBodies, C::kRows>::Vector;
+using Scratch = RowAndResponse<Evaluated<C>, Response<C>>;
+
+template <int kRows>
+struct Totals {
+  using Vector = Eigen::Matrix<double, kRows, 1>;
   Vector total = Vector::Zero();  // accumulated
   bool loaded = false;            // it had a multiplier in the last substep
   double step = 0;                // the dt that `total` belongs to [s]
+};
+template <class C>
+using Multipliers = Totals<C::kRows>;
+
+// How far its solve goes.
+struct Tuned {
+  double relaxation, regularisation;
+  bool damps = false;  // the regularisation is in mu alone
 };
 
 // The constraints of one kind, in the order they were added.
 template <class C>
 struct Set {
   using Vector = typename Row<C::kBodies, C::kRows>::Vector;
-  struct Tuned {
-    double relaxation, regularisation;
-    bool damps = false;  // the regularisation is in mu alone
-  };
   std::vector<C> items;
   std::vector<int> active;    // items that are solved: all, but for those of bodies that sleep
   std::vector<int> overTime;  // items that follow a table

@@ -20,11 +20,11 @@ Eigen::Matrix<double, C::kRows, C::kRows> respond(const C& item, const Evaluated
   }
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     const auto& [inverse, inertia] = massOf(item.bodies[b]);
-    if constexpr (C::kLinear) {
+    if (hasLinear(item)) {
       response.linear[b] = inverse * row.linear[b].transpose();
       a.noalias() += row.linear[b].lazyProduct(response.linear[b]);
     }
-    if constexpr (isAngular<C>()) {
+    if (hasAngular(item)) {
       response.angular[b].noalias() = inertia.lazyProduct(row.angular[b].transpose());
       a.noalias() += row.angular[b].lazyProduct(response.angular[b]);
     }
@@ -43,23 +43,23 @@ Eigen::Matrix<double, C::kRows, C::kRows> effectiveMassInverse(const C& item,
 
 // Displaces one body by the change `delta` of a multiplier.
 template <class C>
-DeltaX displacementOf(const Response<C>& response, std::size_t b,
-                      const typename Set<C>::Vector& delta) {
+DeltaX displacementOf(const C& item, const Response<C>& response, std::size_t b,
+                      const VectorOf<C>& delta) {
   DeltaX moved;
-  if constexpr (C::kLinear) moved.dx = response.linear[b].lazyProduct(delta);
-  if constexpr (isAngular<C>()) moved.dtheta = response.angular[b].lazyProduct(delta);
+  if (hasLinear(item)) moved.dx = response.linear[b].lazyProduct(delta);
+  if (hasAngular(item)) moved.dtheta = response.angular[b].lazyProduct(delta);
   return moved;
 }
 
 template <class C>
-void displaceBodies(const C& item, const Response<C>& response,
-                    const typename Set<C>::Vector& delta, Bodies& bodies) {
+void displaceBodies(const C& item, const Response<C>& response, const VectorOf<C>& delta,
+                    Bodies& bodies) {
   if (delta.isZero(0)) return;
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     const BodyId id = item.bodies[b];
-    const DeltaX moved = displacementOf<C>(response, b, delta);
-    if constexpr (C::kLinear) bodies.shift[id] += moved.dx;
-    if constexpr (isAngular<C>()) {
+    const DeltaX moved = displacementOf(item, response, b, delta);
+    if (hasLinear(item)) bodies.shift[id] += moved.dx;
+    if (hasAngular(item)) {
       displace(bodies.pose[id], moved.dx, moved.dtheta);
     } else {
       bodies.pose[id].x += moved.dx;
@@ -99,25 +99,21 @@ Configuration configurationOf(const C& item, const Bodies& bodies, double dt) {
 
 // Keeps the account of the angular impulses that the second-order steppings balance.
 template <class C>
-void countTwist(const C& item, const Evaluated<C>& row, const typename Set<C>::Vector& delta,
-                Bodies& bodies) {
-  if constexpr (isAngular<C>()) {
-    if (bodies.second.empty()) return;
-    for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-      bodies.second.twist[item.bodies[b]] += row.angular[b].transpose() * delta;
-    }
+void countTwist(const C& item, const Evaluated<C>& row, const VectorOf<C>& delta, Bodies& bodies) {
+  if (bodies.second.empty() || !hasAngular(item)) return;
+  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+    bodies.second.twist[item.bodies[b]] += row.angular[b].transpose() * delta;
   }
 }
 
 // J dX.
 template <class C>
-typename Set<C>::Vector along(const C& item, const Evaluated<C>& row,
-                              std::span<const DeltaX> displaced) {
-  typename Set<C>::Vector sum = Set<C>::Vector::Zero();
+VectorOf<C> along(const C& item, const Evaluated<C>& row, std::span<const DeltaX> displaced) {
+  VectorOf<C> sum = VectorOf<C>::Zero();
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     const DeltaX& moved = displaced[item.bodies[b]];
-    if constexpr (C::kLinear) sum += row.linear[b].lazyProduct(moved.dx);
-    if constexpr (isAngular<C>()) sum += row.angular[b].lazyProduct(moved.dtheta);
+    if (hasLinear(item)) sum += row.linear[b].lazyProduct(moved.dx);
+    if (hasAngular(item)) sum += row.angular[b].lazyProduct(moved.dtheta);
   }
   return sum;
 }

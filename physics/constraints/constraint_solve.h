@@ -53,9 +53,9 @@ typename Row<B, R>::Vector wrongPart(const Row<B, R>& row, const typename Row<B,
 }
 
 template <class C>
-typename Set<C>::Vector standingError(const Evaluated<C>& row) {
+VectorOf<C> standingError(const Evaluated<C>& row) {
   if constexpr (Force<C>) {
-    return Set<C>::Vector::Zero();
+    return VectorOf<C>::Zero();
   } else {
     return wrongPart(row, row.c);
   }
@@ -63,14 +63,11 @@ typename Set<C>::Vector standingError(const Evaluated<C>& row) {
 
 // The new total of a constraint whose error is c.
 template <class C>
-typename Set<C>::Vector solved(const C& item, const Evaluated<C>& row,
-                               const typename Gradients<C::kBodies, C::kRows>::Matrix& a,
-                               const typename Set<C>::Tuned& tuned,
-                               const typename Set<C>::Vector& c,
-                               const typename Set<C>::Vector& total) {
+VectorOf<C> solved(const C& item, const Evaluated<C>& row, const MatrixOf<C>& a, const Tuned& tuned,
+                   const VectorOf<C>& c, const VectorOf<C>& total) {
   const double extra = tuned.regularisation * a.trace() / C::kRows;  // (54)
-  const typename Set<C>::Vector residual = c + (row.alpha + (tuned.damps ? 0 : extra)) * total;
-  typename Set<C>::Vector next =
+  const VectorOf<C> residual = c + (row.alpha + (tuned.damps ? 0 : extra)) * total;
+  VectorOf<C> next =
       total + step<C::kRows>(a, row.alpha + extra, tuned.relaxation, formOf(item), residual);
   clampTotal(next, row.low, row.high, row.longest);
   return next;
@@ -78,12 +75,11 @@ typename Set<C>::Vector solved(const C& item, const Evaluated<C>& row,
 
 // The new total of a force: (1 + K A) dlambda = xi (f h^2 - lambda), (106),(118),(124).
 template <class C>
-typename Set<C>::Vector pushed(const Evaluated<C>& push,
-                               const typename Gradients<C::kBodies, C::kRows>::Matrix& a, double xi,
-                               const typename Set<C>::Vector& total) {
-  using Matrix = typename Gradients<C::kBodies, C::kRows>::Matrix;
+VectorOf<C> pushed(const Evaluated<C>& push, const MatrixOf<C>& a, double xi,
+                   const VectorOf<C>& total) {
+  using Matrix = MatrixOf<C>;
   const Matrix left = Matrix::Identity() + push.k * a;
-  typename Set<C>::Vector next = total + xi * (left.inverse() * (push.f - total));
+  VectorOf<C> next = total + xi * (left.inverse() * (push.f - total));
   constexpr double kFree = std::numeric_limits<double>::infinity();
   clampTotal(next, -kFree, kFree, push.longest);
   return next;
@@ -91,20 +87,20 @@ typename Set<C>::Vector pushed(const Evaluated<C>& push,
 
 // One visit, (52),(53). False: the change was not finite.
 template <class C>
-bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
-           Bodies& bodies, const Configuration& at, Scratch<C>& s) {
+bool solve(const C& item, Multipliers<C>& lambda, const Tuned& tuned, Bodies& bodies,
+           const Configuration& at, Scratch<C>& s) {
   item.evaluate(at, s.row);
   if (!s.row.active) return true;
   const auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
   if (!(a.trace() > 0)) return a.trace() == a.trace();  // nothing here can move
-  typename Set<C>::Vector next;
+  VectorOf<C> next;
   if constexpr (Force<C>) {
     next = pushed<C>(s.row, a, tuned.relaxation, lambda.total);
   } else {
     next = solved(item, s.row, a, tuned, s.row.c, lambda.total);
   }
   if (!next.allFinite()) return false;
-  const typename Set<C>::Vector change = next - lambda.total;
+  const VectorOf<C> change = next - lambda.total;
   lambda.total = next;
   displaceBodies(item, s.response, change, bodies);
   countTwist(item, s.row, change, bodies);
@@ -113,8 +109,8 @@ bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& 
 
 // The same where the bodies may step by several schemes.
 template <class C>
-bool solve(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
-           Bodies& bodies, double dt, Scratch<C>& s) {
+bool solve(const C& item, Multipliers<C>& lambda, const Tuned& tuned, Bodies& bodies, double dt,
+           Scratch<C>& s) {
   return solve(item, lambda, tuned, bodies, configurationOf(item, bodies, dt), s);
 }
 

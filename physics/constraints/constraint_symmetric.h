@@ -14,8 +14,8 @@ inline Pose middleOf(const Pose& from, const Pose& to) {
 }
 
 template <class C>
-bool pushSymmetric(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
-                   Bodies& bodies, Scratch<C>& s) {
+bool pushSymmetric(const C& item, Multipliers<C>& lambda, const Tuned& tuned, Bodies& bodies,
+                   Scratch<C>& s) {
   SecondOrder& second = bodies.second;
   for (const BodyId body : item.bodies) {
     second.middle[body] = middleOf(bodies.start[body], bodies.pose[body]);
@@ -24,7 +24,7 @@ bool pushSymmetric(const C& item, Multipliers<C>& lambda, const typename Set<C>:
   if (!s.row.active) return true;
   const auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
   if (!(a.trace() > 1e-300)) return a.trace() == a.trace();
-  using Vector = typename Set<C>::Vector;
+  using Vector = VectorOf<C>;
   const Vector change = pushed<C>(s.row, a, tuned.relaxation, lambda.total) - lambda.total;
   if (!change.allFinite()) return false;
   lambda.step = 0.5 * second.h;
@@ -33,27 +33,26 @@ bool pushSymmetric(const C& item, Multipliers<C>& lambda, const typename Set<C>:
   countTwist(item, s.row, (2 * change).eval(), bodies);
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     DeltaX& kick = second.kick[item.bodies[b]];
-    if constexpr (C::kLinear) kick.dx += 2 * s.response.linear[b].lazyProduct(change);
-    if constexpr (isAngular<C>()) kick.dtheta += 2 * (s.row.angular[b].transpose() * change);
+    if (hasLinear(item)) kick.dx += 2 * s.response.linear[b].lazyProduct(change);
+    if (hasAngular(item)) kick.dtheta += 2 * (s.row.angular[b].transpose() * change);
   }
   return true;
 }
 
 template <class C>
-bool solveSymmetric(const C& item, Multipliers<C>& lambda, const typename Set<C>::Tuned& tuned,
-                    Bodies& bodies, Scratch<C>& s) {
+bool solveSymmetric(const C& item, Multipliers<C>& lambda, const Tuned& tuned, Bodies& bodies,
+                    Scratch<C>& s) {
   if constexpr (Force<C>) {
     return pushSymmetric(item, lambda, tuned, bodies, s);
   } else {
     const double dt = stepOf(item, bodies, 0);
     item.evaluate({bodies.pose, bodies.start, dt}, s.row);
     if (!s.row.active) return true;
-    const typename Set<C>::Vector c = s.row.c;
+    const VectorOf<C> c = s.row.c;
     item.evaluate({bodies.start, bodies.start, dt}, s.row);  // its J
     const auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
     if (!(a.trace() > 1e-300)) return a.trace() == a.trace();
-    const typename Set<C>::Vector change =
-        solved(item, s.row, a, tuned, c, lambda.total) - lambda.total;
+    const VectorOf<C> change = solved(item, s.row, a, tuned, c, lambda.total) - lambda.total;
     if (!change.allFinite()) return false;
     lambda.total += change;
     displaceBodies(item, s.response, change, bodies);
@@ -71,15 +70,15 @@ double projectVelocity(const C& item, Bodies& bodies, Scratch<C>& s) {
   auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
   if (!(a.trace() > 1e-300)) return 0;
   a.diagonal().array() += 1e-12 * a.trace();  // 1e4 roundings: regular where its rows repeat
-  typename Set<C>::Vector rate = Set<C>::Vector::Zero();
+  VectorOf<C> rate = VectorOf<C>::Zero();
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
     const Velocity& velocity = bodies.velocity[item.bodies[b]];
-    if constexpr (C::kLinear) rate += s.row.linear[b] * velocity.v;
-    if constexpr (isAngular<C>()) rate += s.row.angular[b] * velocity.w;
+    if (hasLinear(item)) rate += s.row.linear[b] * velocity.v;
+    if (hasAngular(item)) rate += s.row.angular[b] * velocity.w;
   }
-  const typename Set<C>::Vector mu = -(a.inverse() * rate);
+  const VectorOf<C> mu = -(a.inverse() * rate);
   for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const DeltaX change = displacementOf<C>(s.response, b, mu);
+    const DeltaX change = displacementOf(item, s.response, b, mu);
     bodies.velocity[item.bodies[b]].v += change.dx;
     bodies.velocity[item.bodies[b]].w += change.dtheta;
   }

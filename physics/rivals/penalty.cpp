@@ -9,27 +9,22 @@ namespace {
 
 template <class F>
 void forEachRow(RivalModel& world, F&& f) {
-  forEachKind(world.kinds, [&](auto& kind) {
-    using C = typename std::decay_t<decltype(kind)>::Item;
-    auto& set = kind.set;
-    for (std::size_t k = 0; k < set.items.size(); ++k) {
-      f(set.items[k], set.lambda[k].total, stiffRowsOf<C>(world)[k]);
-    }
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace&) {
+    for (auto& frozen : rows) f(frozen);
   });
 }
 
 // v += M^-1 J^T f h, and the totals where reports look for them.
 void pushAll(RivalModel& world, double dt) {
   std::vector<Velocity>& velocity = world.bodies.velocity;
-  forEachRow(world, [&](auto& item, auto& total, auto& stiff) {
-    using C = std::decay_t<decltype(item)>;
-    total.setZero();
-    if (!stiff.at.row.active) return;
-    total = stiff.f;
-    for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-      const DeltaX step = displacementOf<C>(stiff.at.response, b, stiff.f);
-      velocity[item.bodies[b]].v += step.dx / dt;
-      velocity[item.bodies[b]].w += step.dtheta / dt;
+  forEachRow(world, [&](auto& frozen) {
+    frozen.total->setZero();
+    if (!frozen.row.active) return;
+    *frozen.total = frozen.f;
+    for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
+      const DeltaX step = displacementOf(frozen, frozen.response, b, frozen.f);
+      velocity[frozen.bodies[b]].v += step.dx / dt;
+      velocity[frozen.bodies[b]].w += step.dtheta / dt;
     }
   });
   for (const StiffTouch& contact : world.penalty.touches) {
@@ -60,32 +55,25 @@ void addPull(BodyId body, const Vec3& arm, const Vec3& force, RivalModel& world)
   world.penalty.matrix.addStiffness<3>(ids, linear, &angular, k);
 }
 
-template <class C>
-Vec3 armOf(const C& item, std::size_t b, const Bodies& bodies) {
-  if constexpr (requires { item.anchors; }) {
-    return bodies.pose[item.bodies[b]].q * item.anchors[b];
-  } else {
-    return Vec3::Zero();
-  }
-}
-
 // The geometric stiffness of the last substep's force, where it stiffens; by the shape of the row:
-// one row between two points or along many, or three rows between two points.
-template <class C>
-void addGeometric(const C& item, const Evaluated<C>& row, const typename Set<C>::Vector& total,
-                  RivalModel& world) {
-  if constexpr (C::kLinear && C::kBodies == kMany) {
-    for (std::size_t b = 0; b + 1 < item.bodies.size(); ++b) {
-      addTension({item.bodies[b], item.bodies[b + 1]}, {Vec3::Zero(), Vec3::Zero()}, -total[0],
+// one row between two points or along many, or several rows between two points.
+template <class R>
+void addGeometric(const R& frozen, RivalModel& world) {
+  if (!frozen.isLinear) return;
+  const auto armOf = [&](std::size_t b) -> Vec3 {
+    return world.bodies.pose[frozen.bodies[b]].q * frozen.anchors[b];
+  };
+  const VectorOf<R>& total = *frozen.total;
+  if constexpr (R::kBodies == kMany) {
+    for (std::size_t b = 0; b + 1 < frozen.bodies.size(); ++b) {
+      addTension({frozen.bodies[b], frozen.bodies[b + 1]}, {Vec3::Zero(), Vec3::Zero()}, -total[0],
                  world);
     }
-  } else if constexpr (C::kLinear && C::kBodies == 2 && C::kRows == 1) {
-    addTension(item.bodies, {armOf(item, 0, world.bodies), armOf(item, 1, world.bodies)}, -total[0],
-               world);
-  } else if constexpr (C::kLinear && C::kBodies == 2 && requires { item.anchors; }) {
-    for (std::size_t b = 0; b < 2; ++b) {
-      addPull(item.bodies[b], armOf(item, b, world.bodies), row.linear[b].transpose() * total,
-              world);
+  } else if constexpr (R::kBodies == 2 && R::kRows == 1) {
+    addTension(frozen.bodies, {armOf(0), armOf(1)}, -total[0], world);
+  } else if constexpr (R::kBodies == 2) {
+    for (std::size_t b = 0; b < 2 && frozen.isAnchored; ++b) {
+      addPull(frozen.bodies[b], armOf(b), frozen.row.linear[b].transpose() * total, world);
     }
   }
 }
@@ -112,19 +100,19 @@ void assembleTouches(RivalModel& world, double dt) {
 void assemble(RivalModel& world, double dt) {
   SparseMotion& matrix = world.penalty.matrix;
   matrix.begin(world.bodies, world.penalty.free);
-  forEachRow(world, [&](auto& item, auto& total, auto& stiff) {
-    using C = std::decay_t<decltype(item)>;
-    const auto& row = stiff.at.row;
+  forEachRow(world, [&](auto& frozen) {
+    const auto& row = frozen.row;
     if (!row.active) return;
-    for (std::size_t b = 0; b < item.bodies.size(); ++b) {
+    for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
       Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
-      if constexpr (C::kLinear) linear = row.linear[b].transpose() * stiff.f / dt;
-      if constexpr (isAngular<C>()) angular = row.angular[b].transpose() * stiff.f / dt;
-      matrix.addImpulse(item.bodies[b], linear, angular);
+      if (frozen.isLinear) linear = row.linear[b].transpose() * frozen.f / dt;
+      if (frozen.isAngular) angular = row.angular[b].transpose() * frozen.f / dt;
+      matrix.addImpulse(frozen.bodies[b], linear, angular);
     }
-    const auto* angular = isAngular<C>() ? &row.angular : nullptr;
-    matrix.template addStiffness<C::kRows>(item.bodies, row.linear, angular, stiff.k);
-    addGeometric(item, row, total, world);
+    const auto* angular = frozen.isAngular ? &row.angular : nullptr;
+    matrix.template addStiffness<std::decay_t<decltype(frozen)>::kRows>(frozen.bodies, row.linear,
+                                                                        angular, frozen.k);
+    addGeometric(frozen, world);
   });
   assembleTouches(world, dt);
 }
@@ -173,12 +161,10 @@ void nameStiffest(RivalModel& world, StepReport& report) {
     most = stiffness;
     nameCulprit(report, kind, k, body);
   };
-  forEachKind(world.kinds, [&](auto& kind) {
-    using K = std::decay_t<decltype(kind)>;
-    for (std::size_t k = 0; k < kind.set.items.size(); ++k) {
-      const auto& stiff = stiffRowsOf<typename K::Item>(world)[k];
-      if (!stiff.at.row.active) continue;
-      offer(K::kWord, k, moverOf(kind.set.items[k], world.bodies), stiff.k.norm());
+  forEachList(world.kinds, world.frozen, [&](const auto& rows, const KindPlace& kind) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (!rows[k].row.active) continue;
+      offer(kind.word, k, moverOf(rows[k], world.bodies), rows[k].k.norm());
     }
   });
   for (std::size_t k = 0; k < world.penalty.touches.size(); ++k) {
@@ -190,10 +176,10 @@ void nameStiffest(RivalModel& world, StepReport& report) {
 
 // lambda of the last Newton step, where reports and the next substep look for it.
 void keepTotals(RivalModel& world) {
-  forEachRow(world, [&](auto& item, auto& total, auto& stiff) {
-    total.setZero();
-    if (!stiff.at.row.active) return;
-    total = stiff.f - stiff.k * along(item, stiff.at.row, world.penalty.step);
+  forEachRow(world, [&](auto& frozen) {
+    frozen.total->setZero();
+    if (!frozen.row.active) return;
+    *frozen.total = frozen.f - frozen.k * along(frozen, frozen.row, world.penalty.step);
   });
   for (const StiffTouch& contact : world.penalty.touches) {
     *contact.normal = contact.f[0];

@@ -11,30 +11,12 @@
 // Strack, A Discrete Numerical Model for Granular Assemblies (1979).
 #pragma once
 
-#include <tuple>
 #include <vector>
 
-#include "physics/constraints/constraint_response.h"
-#include "physics/constraints/kinds.h"
 #include "physics/rivals/penalty_system.h"
 #include "physics/rivals/touch.h"
 
 namespace physics {
-
-// A constraint as a spring at the poses where it was taken: lambda(u) = f - k J u.
-template <class C>
-struct StiffRow {
-  Scratch<C> at;
-  typename Gradients<C::kBodies, C::kRows>::Vector f;  // times h^2
-  typename Gradients<C::kBodies, C::kRows>::Matrix k;  // times h^2
-};
-
-template <class Tuple>
-struct StiffRows;
-template <class... K>
-struct StiffRows<std::tuple<K...>> {
-  using Type = std::tuple<std::vector<StiffRow<typename K::Item>>...>;
-};
 
 struct StiffTouch {
   Touch touch;
@@ -49,7 +31,6 @@ struct StiffTouch {
 };
 
 struct PenaltySystem {
-  StiffRows<Kinds>::Type rows;
   std::vector<StiffTouch> touches;
   std::vector<int> meeting;      // constraints and touches at each body
   std::vector<DeltaX> moved;     // h v and h w of every body

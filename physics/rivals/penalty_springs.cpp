@@ -22,11 +22,10 @@ double sharers(const RivalModel& world, std::span<const BodyId> bodies) {
 void countMeetings(RivalModel& world, StepReport& report) {
   std::vector<int>& meeting = world.penalty.meeting;
   meeting.assign(world.bodies.pose.size(), 0);
-  forEachKind(world.kinds, [&](auto& kind) {
-    if constexpr (!Force<typename std::decay_t<decltype(kind)>::Item>) {
-      for (const auto& item : kind.set.items) {
-        for (const BodyId body : item.bodies) ++meeting[body];
-      }
+  forEachList(world.kinds, world.frozen, [&](const auto& rows, const KindPlace&) {
+    for (const auto& frozen : rows) {
+      if (frozen.kIsForce) continue;
+      for (const BodyId body : frozen.bodies) ++meeting[body];
     }
   });
   forEachTouch(world, report, [&](const Touch& touch, auto&, auto&, auto*) {
@@ -37,61 +36,61 @@ void countMeetings(RivalModel& world, StepReport& report) {
 
 // f and k of a constraint: the wrong part of its error against the springs, its bounds on the
 // force.
-template <class C>
-void stiffen(const typename Gradients<C::kBodies, C::kRows>::Matrix& a, const PenaltyScheme& scheme,
-             double share, const typename Set<C>::Vector& follow, StiffRow<C>& stiff) {
-  using Matrix = typename Gradients<C::kBodies, C::kRows>::Matrix;
-  const Evaluated<C>& row = stiff.at.row;
-  const typename Set<C>::Vector standing = standingError<C>(row);
-  stiff.k.setZero();
-  stiff.f.setZero();
+template <class R>
+void stiffen(const PenaltyScheme& scheme, double share, const VectorOf<R>& follow, R& frozen) {
+  using Matrix = MatrixOf<R>;
+  const auto& row = frozen.row;
+  const VectorOf<R> standing = standingError<R>(row);
+  frozen.k.setZero();
+  frozen.f.setZero();
   if (standing.isZero(0) && (row.high <= 0 || row.low >= 0)) return;  // an inequality that holds
-  Matrix soft = (share / scheme.kappa) * a;  // in series with the constraint's own compliance
-  soft.diagonal().array() += row.alpha + 1e-12 * a.trace() / scheme.kappa;
+  Matrix soft = (share / scheme.kappa) * frozen.a;  // in series with its own compliance
+  soft.diagonal().array() += row.alpha + 1e-12 * frozen.a.trace() / scheme.kappa;
   const Matrix k = soft.inverse();
-  const Matrix d = canStand<C>() ? Matrix(scheme.delta / scheme.kappa * k) : Matrix::Zero();
-  stiff.f = -(k * standing) - d * follow;
-  typename Set<C>::Vector bounded = stiff.f;
+  const Matrix d = frozen.stands ? Matrix(scheme.delta / scheme.kappa * k) : Matrix::Zero();
+  frozen.f = -(k * standing) - d * follow;
+  VectorOf<R> bounded = frozen.f;
   clampTotal(bounded, row.low, row.high, row.longest);
-  if (bounded == stiff.f) stiff.k = k + d;
-  stiff.f = bounded;
+  if (bounded == frozen.f) frozen.k = k + d;
+  frozen.f = bounded;
 }
 
-template <class C>
-bool takeRow(const Set<C>& set, std::size_t k, const Configuration& x, const PenaltyScheme& scheme,
-             RivalModel& world) {
-  StiffRow<C>& stiff = stiffRowsOf<C>(world)[k];
-  auto& [row, response] = stiff.at;
-  evaluateAt(set.items[k], x, row);
-  if constexpr (!C::kLinear) {
+// False: it is not finite.
+template <class R>
+bool takeSpring(const PenaltyScheme& scheme, const RivalModel& world, R& frozen) {
+  auto& row = frozen.row;
+  if (!frozen.isLinear) {
     for (auto& block : row.linear) block.setZero();
   }
   if (!row.active) return true;
-  const auto a = effectiveMassInverse(set.items[k], row, world.bodies.inverse, response);
-  row.active = a.trace() > 1e-300;
-  if (!row.active) return std::isfinite(a.trace());
-  if constexpr (Force<C>) {
+  frozen.a = effectiveMassInverse(frozen, row, world.bodies.inverse, frozen.response);
+  row.active = frozen.a.trace() > 1e-300;
+  if (!row.active) return std::isfinite(frozen.a.trace());
+  if constexpr (R::kIsForce) {
     const double size = row.f.norm(), share = size > row.longest ? row.longest / size : 1;
-    stiff.f = share * row.f;
-    stiff.k = share * row.k;
+    frozen.f = share * row.f;
+    frozen.k = share * row.k;
   } else {
-    const double share = scheme.implicit ? 1 : sharers(world, set.items[k].bodies);
-    stiffen<C>(a, scheme, share, along(set.items[k], row, world.penalty.moved), stiff);
+    const double share = scheme.implicit ? 1 : sharers(world, frozen.bodies);
+    stiffen(scheme, share, along(frozen, row, world.penalty.moved), frozen);
   }
-  return stiff.f.allFinite();
+  return frozen.f.allFinite();
 }
 
-bool takeRows(RivalModel& world, const Configuration& x, const PenaltyScheme& scheme,
-              StepReport& report) {
+void evaluateRows(RivalModel& world, const Configuration& x, StepReport& report) {
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
+    rows.resize(kind.count);
+    for (std::size_t k = 0; k < rows.size(); ++k) evaluate(world.kinds, kind.place, k, x, rows[k]);
+    report.constraintEvaluations += static_cast<std::int64_t>(rows.size());
+  });
+}
+
+bool takeRows(RivalModel& world, const PenaltyScheme& scheme, StepReport& report) {
   bool finite = true;
-  forEachKind(world.kinds, [&](auto& kind) {
-    using K = std::decay_t<decltype(kind)>;
-    auto& set = kind.set;
-    stiffRowsOf<typename K::Item>(world).resize(set.items.size());
-    report.constraintEvaluations += static_cast<std::int64_t>(set.items.size());
-    for (std::size_t k = 0; k < set.items.size() && finite; ++k) {
-      finite = takeRow(set, k, x, scheme, world);
-      if (!finite) nameCulprit(report, K::kWord, k, moverOf(set.items[k], world.bodies));
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
+    for (std::size_t k = 0; k < rows.size() && finite; ++k) {
+      finite = takeSpring(scheme, world, rows[k]);
+      if (!finite) nameCulprit(report, kind.word, k, moverOf(rows[k], world.bodies));
     }
   });
   return finite;
@@ -214,8 +213,9 @@ void takeMoved(RivalModel& world, double dt) {
 
 bool takeSprings(RivalModel& world, const Configuration& x, const PenaltyScheme& scheme, bool first,
                  StepReport& report) {
+  evaluateRows(world, x, report);
   if (!scheme.implicit) countMeetings(world, report);
-  return takeRows(world, x, scheme, report) && takeTouches(world, x.dt, scheme, first, report);
+  return takeRows(world, scheme, report) && takeTouches(world, x.dt, scheme, first, report);
 }
 
 }  // namespace physics

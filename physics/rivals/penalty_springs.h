@@ -14,19 +14,14 @@ struct PenaltyScheme {
 };
 PenaltyScheme schemeOf(const Settings& settings, bool implicit);
 
-template <class C>
-std::vector<StiffRow<C>>& stiffRowsOf(RivalModel& world) {
-  return std::get<std::vector<StiffRow<C>>>(world.penalty.rows);
-}
-
 // world.penalty.moved from the present velocities.
 void takeMoved(RivalModel& world, double dt);
 
 // J (h v) of the three rows of a touch.
 Vec3 followOf(const StiffTouch& contact, const std::vector<DeltaX>& moved);
 
-// Fills world.penalty.rows and .touches at x; `first` in a substep, no force of a contact is known
-// yet. False: something was not finite, and report.notFinite names it.
+// Fills world.frozen and world.penalty.touches at x; `first` in a substep, no force of a contact is
+// known yet. False: something was not finite, and report.notFinite names it.
 bool takeSprings(RivalModel& world, const Configuration& x, const PenaltyScheme& scheme, bool first,
                  StepReport& report);
 

@@ -32,20 +32,6 @@ void advance(Bodies& bodies, double dt);
 // Restitution by the rule that all methods of this project share (restitution.h).
 void bounce(RivalModel& world, double dt);
 
-// A row that is kept from one evaluation to the next: one-sided kinds set one bound and trust that
-// the other is open.
-template <class C>
-void evaluateAt(const C& item, const Configuration& x, Evaluated<C>& row) {
-  constexpr double kFree = std::numeric_limits<double>::infinity();
-  row.active = true;
-  row.longest = kFree;
-  if constexpr (!Force<C>) {
-    row.low = -kFree;
-    row.high = kFree;
-  }
-  item.evaluate(x, row);
-}
-
 // Calls f(touch, normalTotal, frictionTotal, pair point or nullptr) for every contact point at the
 // present poses, in order; where f returns false it stops and names that contact.
 template <class F>

@@ -33,43 +33,28 @@ Stiffness stiffness(double dt) {
           softness(2 * contact, 10, dt)};
 }
 
-template <class C>
-std::vector<ImpulseRow<C>>& rowsOf(RivalModel& world) {
-  return std::get<std::vector<ImpulseRow<C>>>(world.impulses.rows);
-}
-
 // Soft by itself: taken once per substep, and not relaxed.
-template <class C>
-bool isCompliant(const Evaluated<C>& row) {
-  if constexpr (Force<C>) {
+template <class R>
+bool isCompliant(const R& frozen) {
+  if constexpr (R::kIsForce) {
     return true;
   } else {
-    return row.alpha > 0;
+    return frozen.row.alpha > 0;
   }
 }
 
 // J and A at the present poses. A force is linear about the poses `ahead`, where v would take the
 // bodies: its damping needs a velocity, and f there + K J (h v) is what lambda + K J (h v) must be.
-template <class C>
-void freeze(const Set<C>& set, RivalModel& world, double dt, Stage stage) {
-  std::vector<ImpulseRow<C>>& rows = rowsOf<C>(world);
+template <class R>
+void freeze(RivalModel& world, const KindPlace& kind, std::size_t k, double dt, R& frozen) {
   const std::vector<Pose>& pose = world.bodies.pose;
-  rows.resize(set.items.size());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    auto& [row, response] = rows[k].at;
-    if (stage == Stage::kRelax && isCompliant<C>(row)) continue;
-    evaluateAt(set.items[k], {pose, pose, dt}, row);
-    if constexpr (Force<C>) {
-      Evaluated<C> there;
-      set.items[k].evaluate({world.ahead, pose, dt}, there);
-      row.active = row.active && there.active;
-      row.k = there.k;
-      row.longest = there.longest;
-      row.f = there.f + row.k * along(set.items[k], row, world.impulses.moved);
-    }
-    if (row.active)
-      rows[k].a = effectiveMassInverse(set.items[k], row, world.bodies.inverse, response);
+  evaluate(world.kinds, kind.place, k, {pose, pose, dt}, frozen);
+  if constexpr (R::kIsForce) {
+    evaluateForce(world.kinds, kind.place, k, {world.ahead, pose, dt}, frozen);
+    frozen.row.f += frozen.row.k * along(frozen, frozen.row, world.impulses.moved);
   }
+  if (!frozen.row.active) return;
+  frozen.a = effectiveMassInverse(frozen, frozen.row, world.bodies.inverse, frozen.response);
 }
 
 void freezeTouches(RivalModel& world, StepReport& report) {
@@ -89,17 +74,22 @@ void freezeTouches(RivalModel& world, StepReport& report) {
 }
 
 void freezeAll(RivalModel& world, double dt, Stage stage, StepReport& report) {
-  forEachKind(world.kinds, [&](auto& kind) { freeze(kind.set, world, dt, stage); });
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
+    rows.resize(kind.count);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (stage == Stage::kRelax && isCompliant(rows[k])) continue;
+      freeze(world, kind, k, dt, rows[k]);
+    }
+  });
   freezeTouches(world, report);
 }
 
-template <class C>
-void give(const C& item, const Response<C>& response, const typename Set<C>::Vector& change,
-          std::vector<DeltaX>& moved) {
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const DeltaX step = displacementOf<C>(response, b, change);
-    moved[item.bodies[b]].dx += step.dx;
-    moved[item.bodies[b]].dtheta += step.dtheta;
+template <class R>
+void give(const R& frozen, const VectorOf<R>& change, std::vector<DeltaX>& moved) {
+  for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
+    const DeltaX step = displacementOf(frozen, frozen.response, b, change);
+    moved[frozen.bodies[b]].dx += step.dx;
+    moved[frozen.bodies[b]].dtheta += step.dtheta;
   }
 }
 
@@ -120,18 +110,13 @@ double alongRow(const Touch& touch, const TouchRow& row, const std::vector<Delta
   return sum;
 }
 
-template <class C>
-void warmStartRows(Set<C>& set, RivalModel& world) {
-  for (std::size_t k = 0; k < set.items.size(); ++k) {
-    auto& [row, response] = rowsOf<C>(world)[k].at;
-    typename Set<C>::Vector& total = set.lambda[k].total;
-    if (!row.active) total.setZero();
-    if (!total.isZero(0)) give(set.items[k], response, total, world.impulses.moved);
-  }
-}
-
 void warmStart(RivalModel& world) {
-  forEachKind(world.kinds, [&](auto& kind) { warmStartRows(kind.set, world); });
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace&) {
+    for (auto& frozen : rows) {
+      if (!frozen.row.active) frozen.total->setZero();
+      if (!frozen.total->isZero(0)) give(frozen, *frozen.total, world.impulses.moved);
+    }
+  });
   for (ImpulseTouch& contact : world.impulses.touches) {
     *contact.friction -= contact.friction->dot(contact.touch.n) * contact.touch.n;
     give(contact, contact.rows[0], *contact.normal, world.impulses.moved);
@@ -142,56 +127,45 @@ void warmStart(RivalModel& world) {
   }
 }
 
-// The new total of a constraint; `follow` is J (h v).
-template <class C>
-typename Set<C>::Vector nextTotal(const Evaluated<C>& row,
-                                  const typename Gradients<C::kBodies, C::kRows>::Matrix& a,
-                                  const typename Set<C>::Tuned& tuned, Softness soft, Stage stage,
-                                  const typename Set<C>::Vector& follow,
-                                  const typename Set<C>::Vector& total) {
-  using Vector = typename Set<C>::Vector;
-  const double xi = tuned.relaxation, extra = tuned.regularisation * a.trace() / C::kRows;
-  const double alpha = row.alpha + extra;
-  Vector standing = standingError<C>(row);
-  if (!canStand<C>() || row.alpha > 0) standing.setZero();
-  const Vector rest = row.c - standing;
-  const bool isSoft = stage == Stage::kSolve && canStand<C>() && row.alpha == 0 && rest.isZero(0);
-  if (!isSoft) soft = {};
-  const Vector residual = follow + rest + soft.rate * standing + alpha * total;
-  Vector next = total + soft.mass * step<C::kRows>(a, alpha, xi, Form::kVector, residual) -
-                soft.impulse * total;
-  clampTotal(next, row.low, row.high, row.longest);
-  return next;
+// The new total; `follow` is J (h v).
+template <class R>
+VectorOf<R> nextTotal(const R& frozen, Softness soft, Stage stage, const VectorOf<R>& follow) {
+  using Vector = VectorOf<R>;
+  const auto& row = frozen.row;
+  const double xi = frozen.tuned.relaxation;
+  if constexpr (R::kIsForce) {
+    auto push = row;
+    push.f -= row.k * follow;
+    return pushed<R>(push, frozen.a, xi, *frozen.total);
+  } else {
+    const double extra = frozen.tuned.regularisation * frozen.a.trace() / R::kRows;
+    const double alpha = row.alpha + extra;
+    Vector standing = standingError<R>(row);
+    if (!frozen.stands || row.alpha > 0) standing.setZero();
+    const Vector rest = row.c - standing, total = *frozen.total;
+    const bool isSoft = stage == Stage::kSolve && frozen.stands && row.alpha == 0 && rest.isZero(0);
+    if (!isSoft) soft = {};
+    const Vector residual = follow + rest + soft.rate * standing + alpha * total;
+    Vector next = total + soft.mass * step<R::kRows>(frozen.a, alpha, xi, Form::kVector, residual) -
+                  soft.impulse * total;
+    clampTotal(next, row.low, row.high, row.longest);
+    return next;
+  }
 }
 
-template <class K>
-bool sweepKind(K& kind, RivalModel& world, Softness soft, Stage stage, StepReport& report) {
-  using C = typename K::Item;
-  auto& set = kind.set;
-  std::vector<DeltaX>& moved = world.impulses.moved;
-  report.constraintEvaluations += static_cast<std::int64_t>(set.items.size());
-  for (std::size_t k = 0; k < set.items.size(); ++k) {
-    const auto& [row, response] = rowsOf<C>(world)[k].at;
-    const auto& a = rowsOf<C>(world)[k].a;
-    if (!row.active || !(a.trace() > 1e-300)) continue;
-    const typename Set<C>::Vector follow = along(set.items[k], row, moved);
-    typename Set<C>::Vector& total = set.lambda[k].total;
-    typename Set<C>::Vector next;
-    if constexpr (Force<C>) {
-      Evaluated<C> push = row;
-      push.f -= row.k * follow;
-      next = pushed<C>(push, a, set.tuned[k].relaxation, total);
-    } else {
-      next = nextTotal<C>(row, a, set.tuned[k], soft, stage, follow, total);
-    }
-    if (!next.allFinite()) {
-      nameCulprit(report, K::kWord, k, moverOf(set.items[k], world.bodies));
-      return false;
-    }
-    give(set.items[k], response, next - total, moved);
-    total = next;
+// The first row whose multiplier would not be finite; rows.size(): none.
+template <class R>
+std::size_t sweepRows(std::vector<R>& rows, Softness soft, Stage stage,
+                      std::vector<DeltaX>& moved) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    R& frozen = rows[k];
+    if (!frozen.row.active || !(frozen.a.trace() > 1e-300)) continue;
+    const VectorOf<R> next = nextTotal(frozen, soft, stage, along(frozen, frozen.row, moved));
+    if (!next.allFinite()) return k;
+    give(frozen, next - *frozen.total, moved);
+    *frozen.total = next;
   }
-  return true;
+  return rows.size();
 }
 
 void sweepNormal(const ImpulseTouch& contact, const Stiffness& stiff, Stage stage, double fastest,
@@ -227,8 +201,12 @@ void sweepFriction(const ImpulseTouch& contact, std::vector<DeltaX>& moved) {
 bool sweep(RivalModel& world, double dt, Stage stage, StepReport& report) {
   const Stiffness stiff = stiffness(dt);
   bool finite = true;
-  forEachKind(world.kinds, [&](auto& kind) {
-    finite = finite && sweepKind(kind, world, stiff.joint, stage, report);
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
+    if (!finite) return;
+    report.constraintEvaluations += static_cast<std::int64_t>(rows.size());
+    const std::size_t k = sweepRows(rows, stiff.joint, stage, world.impulses.moved);
+    finite = k == rows.size();
+    if (!finite) nameCulprit(report, kind.word, k, moverOf(rows[k], world.bodies));
   });
   report.constraintEvaluations += contactVisits(world);
   for (const ImpulseTouch& contact : world.impulses.touches) {

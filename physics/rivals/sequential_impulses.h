@@ -13,27 +13,11 @@
 // compliances are soft with gamma and beta of their own, which is the implicit K of Push.
 #pragma once
 
-#include <tuple>
 #include <vector>
 
-#include "physics/constraints/constraint_response.h"
-#include "physics/constraints/kinds.h"
 #include "physics/rivals/touch.h"
 
 namespace physics {
-
-template <class C>
-struct ImpulseRow {
-  Scratch<C> at;  // where J was taken
-  typename Gradients<C::kBodies, C::kRows>::Matrix a;
-};
-
-template <class Tuple>
-struct ImpulseRows;
-template <class... K>
-struct ImpulseRows<std::tuple<K...>> {
-  using Type = std::tuple<std::vector<ImpulseRow<typename K::Item>>...>;
-};
 
 struct ImpulseTouch {
   Touch touch;
@@ -45,7 +29,6 @@ struct ImpulseTouch {
 
 // The accumulated impulses are the multipliers of the constraints and contacts, times h.
 struct ImpulseSystem {
-  ImpulseRows<Kinds>::Type rows;
   std::vector<ImpulseTouch> touches;
   std::vector<DeltaX> moved;  // h v and h w of every body
 };

@@ -45,58 +45,36 @@ void forgetMultipliers(RivalModel& world) {
 // The new total of a constraint: a joint of several rows is corrected along its error, as one
 // scalar constraint. A force is compliant through its K: with f = -k (c - l) - nu dc/dt, K = k h^2
 // + nu h this is the damped constraint of XPBD (26), alpha = 1/k and gamma = nu/(h k).
-template <class C>
-typename Set<C>::Vector nextTotal(const Evaluated<C>& row,
-                                  const typename Gradients<C::kBodies, C::kRows>::Matrix& a,
-                                  const typename Set<C>::Tuned& tuned,
-                                  const typename Set<C>::Vector& total) {
-  if constexpr (Force<C>) {
-    return pushed<C>(row, a, tuned.relaxation, total);
+template <class R>
+VectorOf<R> nextTotal(const R& frozen) {
+  const auto& row = frozen.row;
+  const VectorOf<R>& total = *frozen.total;
+  if constexpr (R::kIsForce) {
+    return pushed<R>(row, frozen.a, frozen.tuned.relaxation, total);
   } else {
-    const double alpha = row.alpha + tuned.regularisation * a.trace() / C::kRows;
-    const typename Set<C>::Vector residual = row.c + alpha * total;
-    typename Set<C>::Vector next =
-        total + step<C::kRows>(a, alpha, tuned.relaxation, Form::kScalar, residual);
+    const double alpha = row.alpha + frozen.tuned.regularisation * frozen.a.trace() / R::kRows;
+    const VectorOf<R> residual = row.c + alpha * total;
+    VectorOf<R> next =
+        total + step<R::kRows>(frozen.a, alpha, frozen.tuned.relaxation, Form::kScalar, residual);
     clampTotal(next, row.low, row.high, row.longest);
     return next;
   }
 }
 
-template <class C>
-bool project(Set<C>& set, std::size_t k, Scratch<C>& s, Bodies& bodies, double dt) {
-  const C& item = set.items[k];
-  evaluateAt(item, {bodies.pose, bodies.start, dt}, s.row);
-  if (!s.row.active) return true;
-  const auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
-  if (!(a.trace() > 1e-300)) return std::isfinite(a.trace());  // nothing here can move
-  typename Set<C>::Vector& total = set.lambda[k].total;
-  const typename Set<C>::Vector next = nextTotal<C>(s.row, a, set.tuned[k], total);
+template <class R>
+bool project(R& frozen, Bodies& bodies) {
+  if (!frozen.row.active) return true;
+  frozen.a = effectiveMassInverse(frozen, frozen.row, bodies.inverse, frozen.response);
+  if (!(frozen.a.trace() > 1e-300)) return std::isfinite(frozen.a.trace());  // nothing can move
+  const VectorOf<R> next = nextTotal(frozen);
   if (!next.allFinite()) return false;
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const DeltaX moved = displacementOf<C>(s.response, b, next - total);
-    Pose& pose = bodies.pose[item.bodies[b]];
+  for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
+    const DeltaX moved = displacementOf(frozen, frozen.response, b, next - *frozen.total);
+    Pose& pose = bodies.pose[frozen.bodies[b]];
     pose.x += moved.dx;
-    if constexpr (isAngular<C>()) pose.q = turned(pose.q, moved.dtheta);
+    if (frozen.isAngular) pose.q = turned(pose.q, moved.dtheta);
   }
-  total = next;
-  return true;
-}
-
-template <class K>
-bool projectKind(K& kind, Bodies& bodies, double dt, StepReport& report) {
-  using C = typename K::Item;
-  auto& set = kind.set;
-  report.constraintEvaluations += static_cast<std::int64_t>(set.items.size());
-  for (std::size_t k = 0; k < set.items.size(); ++k) {
-    Scratch<C> fresh;
-    if constexpr (C::kBodies == kMany) std::swap(fresh, set.scratch);
-    const bool finite = project(set, k, fresh, bodies, dt);
-    if constexpr (C::kBodies == kMany) std::swap(fresh, set.scratch);
-    if (!finite) {
-      nameCulprit(report, K::kWord, k, moverOf(set.items[k], bodies));
-      return false;
-    }
-  }
+  *frozen.total = next;
   return true;
 }
 
@@ -183,8 +161,16 @@ void solveVelocities(RivalModel& world, double dt, StepReport& report) {
 bool sweepOnce(RivalModel& world, double dt, StepReport& report) {
   bool finite = true;
   report.constraintEvaluations += contactVisits(world);
-  forEachKind(world.kinds,
-              [&](auto& kind) { finite = finite && projectKind(kind, world.bodies, dt, report); });
+  const Configuration x{world.bodies.pose, world.bodies.start, dt};
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
+    rows.resize(1);  // to work in: each is evaluated where the one before has left its bodies
+    for (std::size_t k = 0; k < kind.count && finite; ++k) {
+      ++report.constraintEvaluations;
+      evaluate(world.kinds, kind.place, k, x, rows[0]);
+      finite = project(rows[0], world.bodies);
+      if (!finite) nameCulprit(report, kind.word, k, moverOf(rows[0], world.bodies));
+    }
+  });
   return finite && forEachTouch(world, report,
                                 [&](const Touch& touch, double& normal, Vec3& friction, auto*) {
                                   return projectTouch(touch, normal, friction, world.bodies);

@@ -35,7 +35,7 @@ inline void release(JointRows& joint) {
 // Lets go of a one-sided joint that does not hold at the present poses, and notes that it did.
 template <class C>
 void chooseActive(const C& item, const Row<C::kBodies, C::kRows>& row, Stage stage,
-                  const Bodies& bodies, typename Set<C>::Vector& total, JointRows& joint) {
+                  const Bodies& bodies, VectorOf<C>& total, JointRows& joint) {
   if constexpr (requires { item.isOneSided(); }) {
     if (!item.isOneSided()) return;
     const bool held = !total.isZero(0);

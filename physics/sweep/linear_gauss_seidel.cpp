@@ -3,28 +3,11 @@
 
 #include <cmath>
 
-#include "physics/constraints/friction.h"
+#include "physics/constraints/constraint_solve.h"
 #include "physics/sweep/nonlinear_gauss_seidel.h"
 
 namespace physics {
 namespace {
-
-template <class C>
-std::vector<FrozenRow<C>>& rowsOf(SweepModel& world) {
-  return std::get<std::vector<FrozenRow<C>>>(world.linear.rows);
-}
-
-template <class C>
-void freeze(const Set<C>& set, const Bodies& bodies, double dt, std::vector<FrozenRow<C>>& rows) {
-  rows.resize(set.items.size());
-  for (std::size_t k = 0; k < set.items.size(); ++k) {
-    rows[k].at.row.active = true;
-    set.items[k].evaluate({bodies.pose, bodies.start, dt}, rows[k].at.row);
-    if (!rows[k].at.row.active) continue;
-    rows[k].a =
-        effectiveMassInverse(set.items[k], rows[k].at.row, bodies.inverse, rows[k].at.response);
-  }
-}
 
 FrozenContact direction(const std::array<BodyId, 3>& bodies, const std::array<double, 3>& weight,
                         const std::array<Vec3, 3>& arm, const Vec3& d, const Bodies& state) {
@@ -119,41 +102,42 @@ void sweepPoint(FrozenPoint& point, double xi, SweepModel& world) {
   }
 }
 
+template <class R>
+VectorOf<R> nextTotal(const R& frozen, const VectorOf<R>& follow) {
+  if constexpr (R::kIsForce) {
+    auto push = frozen.row;
+    push.f -= push.k * follow;
+    return pushed<R>(push, frozen.a, frozen.tuned.relaxation, *frozen.total);
+  } else {
+    return solved(frozen, frozen.row, frozen.a, frozen.tuned, (frozen.row.c + follow).eval(),
+                  *frozen.total);
+  }
+}
+
 // The first row whose multiplier would not be finite; rows.size(): none.
-template <class C>
-std::size_t sweepRows(Set<C>& set, std::vector<FrozenRow<C>>& rows, std::vector<DeltaX>& moved) {
+template <class R>
+std::size_t sweepRows(std::vector<R>& rows, std::vector<DeltaX>& moved) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    auto& [row, response] = rows[k].at;
-    if (!row.active || !(rows[k].a.trace() > 0)) continue;
-    const C& item = set.items[k];
-    typename Set<C>::Vector& total = set.lambda[k].total;
-    const typename Set<C>::Vector follow = along(item, row, moved);
-    typename Set<C>::Vector next;
-    if constexpr (Force<C>) {
-      Evaluated<C> push = row;
-      push.f -= row.k * follow;
-      next = pushed<C>(push, rows[k].a, set.tuned[k].relaxation, total);
-    } else {
-      next = solved(item, row, rows[k].a, set.tuned[k], (row.c + follow).eval(), total);
-    }
+    R& frozen = rows[k];
+    if (!frozen.row.active || !(frozen.a.trace() > 0)) continue;
+    const VectorOf<R> next = nextTotal(frozen, along(frozen, frozen.row, moved));
     if (!next.allFinite()) return k;
-    for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-      const DeltaX step = displacementOf<C>(response, b, next - total);
-      moved[item.bodies[b]].dx += step.dx;
-      moved[item.bodies[b]].dtheta += step.dtheta;
+    for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
+      const DeltaX step = displacementOf(frozen, frozen.response, b, next - *frozen.total);
+      moved[frozen.bodies[b]].dx += step.dx;
+      moved[frozen.bodies[b]].dtheta += step.dtheta;
     }
-    total = next;
+    *frozen.total = next;
   }
   return rows.size();
 }
 
 bool sweepKinds(SweepModel& world, StepReport& report) {
-  forEachKind(world.kinds, [&](auto& kind) {
-    using K = std::decay_t<decltype(kind)>;
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
     if (report.notFinite) return;
-    const std::size_t k = sweepRows(kind.set, rowsOf<typename K::Item>(world), world.linear.moved);
-    if (k == kind.set.items.size()) return;
-    nameCulprit(report, K::kWord, k, moverOf(kind.set.items[k], world.bodies));
+    const std::size_t k = sweepRows(rows, world.linear.moved);
+    if (k == rows.size()) return;
+    nameCulprit(report, kind.word, k, moverOf(rows[k], world.bodies));
   });
   return !report.notFinite;
 }
@@ -178,10 +162,16 @@ void keepTotals(SweepModel& world) {
 
 void linearGaussSeidel(SweepModel& world, double dt, StepReport& report) {
   std::int64_t visits = 0;
-  forEachKind(world.kinds, [&](auto& kind) {
-    using C = typename std::decay_t<decltype(kind)>::Item;
-    freeze(kind.set, world.bodies, dt, rowsOf<C>(world));
-    visits += static_cast<std::int64_t>(kind.set.items.size());
+  const Configuration x{world.bodies.pose, world.bodies.start, dt};
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
+    rows.resize(kind.count);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      auto& frozen = rows[k];
+      evaluate(world.kinds, kind.place, k, x, frozen);
+      if (!frozen.row.active) continue;
+      frozen.a = effectiveMassInverse(frozen, frozen.row, world.bodies.inverse, frozen.response);
+    }
+    visits += static_cast<std::int64_t>(rows.size());
   });
   freezeContacts(world);
   world.linear.moved.assign(world.bodies.pose.size(), DeltaX{});

@@ -4,26 +4,13 @@
 #pragma once
 
 #include <array>
-#include <tuple>
 #include <vector>
 
-#include "physics/constraints/constraint_solve.h"
-#include "physics/constraints/kinds.h"
+#include "physics/bodies/body.h"
+#include "physics/constraints/friction.h"
+#include "physics/constraints/frozen_row.h"
 
 namespace physics {
-
-template <class C>
-struct FrozenRow {
-  Scratch<C> at;  // X^{t+1}
-  typename Gradients<C::kBodies, C::kRows>::Matrix a;
-};
-
-template <class Tuple>
-struct FrozenRows;
-template <class... K>
-struct FrozenRows<std::tuple<K...>> {
-  using Type = std::tuple<std::vector<FrozenRow<typename K::Item>>...>;
-};
 
 // One direction at one contact point: rigid bodies a and b, or a link's two points and a body.
 struct FrozenContact {
@@ -39,7 +26,6 @@ struct FrozenPoint {
 };
 
 struct LinearSystem {
-  FrozenRows<Kinds>::Type rows;
   std::vector<FrozenPoint> points;
   std::vector<DeltaX> moved;  // by body, the displacement so far
 };

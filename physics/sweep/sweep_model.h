@@ -14,6 +14,7 @@ struct SweepModel : Model {
   std::vector<JointMotion> jointMotion;
   double jointError = 0;  // largest that the last Newton step met [m or rad]; infinite while its
                           // active set changes
+  FrozenRows frozen;      // the linear method, and rivals
   LinearSystem linear;    // the linear method only
   std::vector<Pose> iterate;  // before the last sweep, where a tolerance is given
 };

@@ -32,24 +32,20 @@ void checkOrientation(const Quat& q) {
 
 template <class C, class D>
 int append(WorldState& w, const D& def, const C& item) {
-  int index = -1;
   w.joined.clear();
   w.attached.clear();
   w.small.topologyChanged();
-  forEachKind(w.kinds, [&](auto& kind) {
-    if constexpr (std::is_same_v<typename std::decay_t<decltype(kind)>::Item, C>) {
-      kind.set.active.push_back(static_cast<int>(kind.set.items.size()));
-      kind.set.items.push_back(item);
-      if constexpr (requires { item.factor; }) {
-        if (item.factor.table) kind.set.overTime.push_back(kind.set.active.back());
-      }
-      kind.set.lambda.emplace_back();
-      kind.set.tuned.push_back({def.tuning.relaxation.value_or(w.settings.relaxation),
-                                def.tuning.regularisation.value_or(w.settings.regularisation),
-                                w.settings.regularisationForm == Regularisation::kDamping});
-      index = static_cast<int>(kind.set.items.size()) - 1;
-    }
-  });
+  Set<C>& set = std::get<Kind<D, C>>(w.kinds).set;
+  const int index = static_cast<int>(set.items.size());
+  set.active.push_back(index);
+  set.items.push_back(item);
+  if constexpr (requires { item.factor; }) {
+    if (item.factor.table) set.overTime.push_back(index);
+  }
+  set.lambda.emplace_back();
+  set.tuned.push_back({def.tuning.relaxation.value_or(w.settings.relaxation),
+                       def.tuning.regularisation.value_or(w.settings.regularisation),
+                       w.settings.regularisationForm == Regularisation::kDamping});
   if constexpr (requires { def.collide; }) {
     if (!def.collide) w.ignore(def.bodies[0], def.bodies[1]);
   }

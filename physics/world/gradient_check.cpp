@@ -17,8 +17,8 @@ Evaluated<C> evaluated(const C& item, const std::vector<Pose>& pose, const World
 
 // Central difference of c by a displacement of one body along coordinate k: 0..2 dx, 3..5 a turn.
 template <class C>
-typename Set<C>::Vector difference(const C& item, std::vector<Pose>& pose, BodyId body, int k,
-                                   const WorldState& w) {
+VectorOf<C> difference(const C& item, std::vector<Pose>& pose, BodyId body, int k,
+                       const WorldState& w) {
   Vec3 dx = Vec3::Zero(), turn = Vec3::Zero();
   (k < 3 ? dx : turn)[k % 3] = kStep;
   const Pose here = pose[body];

@@ -35,16 +35,13 @@ struct Momenta {
 // What a solve that moved `before` to `after` gave the bodies.
 Momenta given(const Bodies& before, const Bodies& after);
 
-template <class C>
-typename Set<C>::Tuned plain() {
-  return {1, 0};
-}
+inline Tuned plain() { return {1, 0}; }
 
 // One visit to the constraint, inertia as it stands.
 template <class C>
 bool visit(const C& item, Multipliers<C>& lambda, Bodies& bodies, double dt = 1.0 / 60) {
   Scratch<C> scratch;
-  return solve(item, lambda, plain<C>(), bodies, dt, scratch);
+  return solve(item, lambda, plain(), bodies, dt, scratch);
 }
 
 // Visits as a World with this constraint alone makes them: fresh inertia for each.

@@ -1,0 +1,105 @@
+// What differs from kind to kind of a frozen row.
+#include "physics/constraints/frozen_row.h"
+
+#include <limits>
+#include <type_traits>
+
+namespace physics {
+namespace {
+
+constexpr auto kPlaces = std::make_index_sequence<std::tuple_size_v<Kinds>>();
+
+// f(set) of the kind at `place`, if its rows are of shape R.
+template <class R, class K, class F, std::size_t... kPlace>
+void atPlace(K& kinds, int place, F&& f, std::index_sequence<kPlace...>) {
+  const auto offer = [&](auto& kind, std::size_t here) {
+    using C = typename std::decay_t<decltype(kind)>::Item;
+    if constexpr (std::is_same_v<FrozenOf<C>, R>) {
+      if (static_cast<std::size_t>(place) == here) f(kind.set);
+    }
+  };
+  (offer(std::get<kPlace>(kinds), kPlace), ...);
+}
+
+// Of a row that is kept: one-sided kinds set one bound and trust that the other is open.
+template <class C>
+void evaluateAt(const C& item, const Configuration& x, Evaluated<C>& row) {
+  constexpr double kFree = std::numeric_limits<double>::infinity();
+  row.active = true;
+  row.longest = kFree;
+  if constexpr (!Force<C>) {
+    row.low = -kFree;
+    row.high = kFree;
+  }
+  item.evaluate(x, row);
+}
+
+template <class C>
+void take(Set<C>& set, std::size_t k, const Configuration& x, FrozenOf<C>& frozen) {
+  const C& item = set.items[k];
+  frozen.bodies = item.bodies;
+  frozen.isLinear = C::kLinear;
+  frozen.isAngular = isAngular<C>();
+  frozen.stands = canStand<C>();
+  frozen.form = formOf(item);
+  if constexpr (requires { item.anchors; }) {
+    frozen.isAnchored = true;
+    frozen.anchors = item.anchors;
+  }
+  frozen.tuned = set.tuned[k];
+  frozen.total = &set.lambda[k].total;
+  evaluateAt(item, x, frozen.row);
+}
+
+}  // namespace
+
+template <class R>
+void evaluate(Kinds& kinds, int place, std::size_t item, const Configuration& x, R& frozen) {
+  atPlace<R>(
+      kinds, place, [&](auto& set) { take(set, item, x, frozen); }, kPlaces);
+}
+
+template <class R>
+void evaluateForce(const Kinds& kinds, int place, std::size_t item, const Configuration& x,
+                   R& frozen) {
+  if constexpr (R::kIsForce) {
+    const auto look = [&](const auto& set) {
+      std::decay_t<decltype(frozen.row)> there;
+      set.items[item].evaluate(x, there);
+      frozen.row.active = frozen.row.active && there.active;
+      frozen.row.f = there.f;
+      frozen.row.k = there.k;
+      frozen.row.longest = there.longest;
+    };
+    atPlace<R>(kinds, place, look, kPlaces);
+  }
+}
+
+KindPlace placeOf(const Kinds& kinds, int place) {
+  KindPlace found{place, "", 0};
+  int here = 0;
+  forEachKind(kinds, [&](const auto& kind) {
+    if (here++ != place) return;
+    found.word = std::decay_t<decltype(kind)>::kWord;
+    found.count = kind.set.items.size();
+  });
+  return found;
+}
+
+#define DBD_SHAPE(bodies, rows, isForce)                                            \
+  template void evaluate(Kinds&, int, std::size_t, const Configuration&,            \
+                         FrozenRow<bodies, rows, isForce>&);                        \
+  template void evaluateForce(const Kinds&, int, std::size_t, const Configuration&, \
+                              FrozenRow<bodies, rows, isForce>&)
+DBD_SHAPE(1, 3, true);
+DBD_SHAPE(2, 1, true);
+DBD_SHAPE(2, 3, true);
+DBD_SHAPE(3, 3, true);
+DBD_SHAPE(2, 1, false);
+DBD_SHAPE(2, 2, false);
+DBD_SHAPE(2, 3, false);
+DBD_SHAPE(4, 1, false);
+DBD_SHAPE(kMany, 1, false);
+#undef DBD_SHAPE
+
+}  // namespace physics
