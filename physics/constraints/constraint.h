@@ -118,6 +118,28 @@ struct ResponseOf {  // M^-1 J^T, per body
 template <class C>
 using Response = ResponseOf<C::kBodies, C::kRows>;
 
+template <class C>
+Form formOf(const C& item) {
+  if constexpr (requires { item.form; }) return item.form;
+  return Form::kVector;
+}
+
+// A constraint or force without its kind: all that its solve asks of it once it is evaluated.
+template <int kBodyCount, int kRowCount, bool kForce>
+struct RowShape {
+  static constexpr int kBodies = kBodyCount, kRows = kRowCount;
+  static constexpr bool kIsForce = kForce;
+  std::span<const BodyId,
+            kBodies == kMany ? std::dynamic_extent : static_cast<std::size_t>(std::max(kBodies, 0))>
+      bodies;
+  bool isLinear, isAngular;
+  Form form;
+};
+template <class C>
+RowShape<C::kBodies, C::kRows, Force<C>> shapeOf(const C& item) {
+  return {item.bodies, hasLinear(item), hasAngular(item), formOf(item)};
+}
+
 // What a visit works in. Kept by the set where its size differs from one constraint to the next.
 template <class RowOrPush, class ResponseToIt>
 struct RowAndResponse {
@@ -175,12 +197,6 @@ bool isSolvedDirectly(const C& item) {
   if constexpr (Force<C> || C::kBodies != 2) return false;
   if constexpr (requires { item.isOneSided(); }) return isEquality(item) || item.isOneSided();
   return isEquality(item);
-}
-
-template <class C>
-Form formOf(const C& item) {
-  if constexpr (requires { item.form; }) return item.form;
-  return Form::kVector;
 }
 
 }  // namespace physics

@@ -85,26 +85,33 @@ VectorOf<C> pushed(const Evaluated<C>& push, const MatrixOf<C>& a, double xi,
   return next;
 }
 
+// The rest of a visit to what has been evaluated.
+template <class S>
+bool solveEvaluated(const S& shape, Multipliers<S>& lambda, const Tuned& tuned, Bodies& bodies,
+                    Scratch<S>& s) {
+  if (!s.row.active) return true;
+  const auto a = effectiveMassInverse(shape, s.row, bodies.inverse, s.response);
+  if (!(a.trace() > 0)) return a.trace() == a.trace();  // nothing here can move
+  VectorOf<S> next;
+  if constexpr (S::kIsForce) {
+    next = pushed<S>(s.row, a, tuned.relaxation, lambda.total);
+  } else {
+    next = solved(shape, s.row, a, tuned, s.row.c, lambda.total);
+  }
+  if (!next.allFinite()) return false;
+  const VectorOf<S> change = next - lambda.total;
+  lambda.total = next;
+  displaceBodies(shape, s.response, change, bodies);
+  countTwist(shape, s.row, change, bodies);
+  return true;
+}
+
 // One visit, (52),(53). False: the change was not finite.
 template <class C>
 bool solve(const C& item, Multipliers<C>& lambda, const Tuned& tuned, Bodies& bodies,
            const Configuration& at, Scratch<C>& s) {
   item.evaluate(at, s.row);
-  if (!s.row.active) return true;
-  const auto a = effectiveMassInverse(item, s.row, bodies.inverse, s.response);
-  if (!(a.trace() > 0)) return a.trace() == a.trace();  // nothing here can move
-  VectorOf<C> next;
-  if constexpr (Force<C>) {
-    next = pushed<C>(s.row, a, tuned.relaxation, lambda.total);
-  } else {
-    next = solved(item, s.row, a, tuned, s.row.c, lambda.total);
-  }
-  if (!next.allFinite()) return false;
-  const VectorOf<C> change = next - lambda.total;
-  lambda.total = next;
-  displaceBodies(item, s.response, change, bodies);
-  countTwist(item, s.row, change, bodies);
-  return true;
+  return solveEvaluated(shapeOf(item), lambda, tuned, bodies, s);
 }
 
 // The same where the bodies may step by several schemes.

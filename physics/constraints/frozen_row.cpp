@@ -75,17 +75,6 @@ void evaluateForce(const Kinds& kinds, int place, std::size_t item, const Config
   }
 }
 
-KindPlace placeOf(const Kinds& kinds, int place) {
-  KindPlace found{place, "", 0};
-  int here = 0;
-  forEachKind(kinds, [&](const auto& kind) {
-    if (here++ != place) return;
-    found.word = std::decay_t<decltype(kind)>::kWord;
-    found.count = kind.set.items.size();
-  });
-  return found;
-}
-
 #define DBD_SHAPE(bodies, rows, isForce)                                            \
   template void evaluate(Kinds&, int, std::size_t, const Configuration&,            \
                          FrozenRow<bodies, rows, isForce>&);                        \

@@ -62,12 +62,16 @@ struct KindPlace {
   const char* word;
   std::size_t count;  // of its items
 };
-KindPlace placeOf(const Kinds& kinds, int place);
 
-// f(list of rows, KindPlace) for every kind.
+// f(list of rows, KindPlace) for every kind that there is.
 template <class F, std::size_t... kPlace>
 void forEachList(const Kinds& kinds, FrozenRows& rows, F& f, std::index_sequence<kPlace...>) {
-  (f(std::get<kPlace>(rows), placeOf(kinds, kPlace)), ...);
+  const auto offer = [&](auto& list, const KindPlace& kind) {
+    if (kind.count > 0) f(list, kind);
+  };
+  (offer(std::get<kPlace>(rows), {kPlace, std::tuple_element_t<kPlace, Kinds>::kWord,
+                                  std::get<kPlace>(kinds).set.items.size()}),
+   ...);
 }
 template <class F>
 void forEachList(const Kinds& kinds, FrozenRows& rows, F&& f) {

@@ -2,12 +2,12 @@
 #include "physics/sweep/direct.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "physics/base/profile.h"
 #include "physics/motion/second_order.h"
 #include "physics/sweep/active_set.h"
 #include "physics/sweep/direct_apply.h"
-#include "physics/sweep/direct_joints.h"
 #include "physics/sweep/nonlinear_gauss_seidel.h"
 
 namespace physics {
@@ -54,8 +54,9 @@ JointRows rowsOf(const C& item, const Bodies& bodies, double dt, Stage stage,
 // Adds J^T lambda, and K of a force that acts at a point of the body: along the arm it stiffens the
 // turn.
 template <class C>
-void load(const C& item, const JointRows& joint, const Vec3& lambda, const Bodies& bodies,
+void load(const C& item, const JointRows& joint, const Bodies& bodies,
           std::span<JointMotion> motion) {
+  const Vec3 lambda = joint.totals();
   for (int b = 0; b < 2; ++b) {
     JointMotion& body = motion[item.bodies[b]];
     const Vec3 force = joint.linear[b].transpose() * lambda;
@@ -106,7 +107,7 @@ void invertMasses(SweepModel& world) {
   }
 }
 
-void respond(const SweepModel& world, double regularisation, const Vec3& lambda, JointRows& joint) {
+void respond(const SweepModel& world, JointRows& joint) {
   double trace = 0;
   for (int b = 0; b < 2; ++b) {
     const JointMotion& m = world.jointMotion[joint.bodies[b]];
@@ -117,8 +118,32 @@ void respond(const SweepModel& world, double regularisation, const Vec3& lambda,
     joint.right += joint.linear[b] * m.lagLinear + joint.angular[b] * m.lagAngular;
   }
   const double mean = trace / joint.rows;
-  joint.alpha = mean > 0 ? std::max(regularisation, kRedundancy) * mean : 1;  // 1: nothing can move
-  if (regularisation > 0) joint.right -= joint.alpha * lambda;
+  joint.alpha =
+      mean > 0 ? std::max(joint.regularisation, kRedundancy) * mean : 1;  // 1: nothing can move
+  if (joint.regularisation > 0) joint.right -= joint.alpha * joint.totals();
+}
+
+// The joints of a kind that the direct method takes as rows.
+template <class K>
+void gatherKind(K& kind, SweepModel& world, double dt, Stage stage) {
+  using C = typename K::Item;
+  if constexpr (!Force<C> && C::kBodies == 2) {
+    auto& set = kind.set;
+    for (const int k : set.active) {
+      const C& item = set.items[k];
+      if (!isSolvedDirectly(item)) continue;
+      Row<C::kBodies, C::kRows> row;
+      JointRows joint = rowsOf(item, world.bodies, dt, stage, row);
+      joint.word = K::kWord;
+      joint.item = static_cast<std::size_t>(k);
+      joint.total = set.lambda[k].total.data();
+      joint.regularisation = set.tuned[k].regularisation;
+      if (!world.jointRows.empty()) joint.first = world.jointRows.back().end();
+      chooseActive(item, row, stage, world.bodies, set.lambda[k].total, joint);
+      load(item, joint, world.bodies, world.jointMotion);
+      world.jointRows.push_back(joint);
+    }
+  }
 }
 
 // All joints at the present poses, and what their present multipliers do.
@@ -130,25 +155,9 @@ void gather(SweepModel& world, double dt, Stage stage) {
     m.dtheta = dtheta;
   }
   world.jointRows.clear();
-  int first = 0;
-  forEachJoint(world, [&](auto& item, auto& lambda, auto&, std::size_t) {
-    using C = std::decay_t<decltype(item)>;
-    Row<C::kBodies, C::kRows> row;
-    JointRows joint = rowsOf(item, world.bodies, dt, stage, row);
-    chooseActive(item, row, stage, world.bodies, lambda.total, joint);
-    Vec3 total = Vec3::Zero();
-    total.head(joint.rows) = lambda.total;
-    load(item, joint, total, world.bodies, world.jointMotion);
-    joint.first = first;
-    first += joint.rows;
-    world.jointRows.push_back(joint);
-  });
+  forEachKind(world.kinds, [&](auto& kind) { gatherKind(kind, world, dt, stage); });
   invertMasses(world);
-  forEachJoint(world, [&](auto&, auto& lambda, auto& tuned, std::size_t k) {
-    Vec3 total = Vec3::Zero();
-    total.head(world.jointRows[k].rows) = lambda.total;
-    respond(world, tuned.regularisation, total, world.jointRows[k]);
-  });
+  for (JointRows& joint : world.jointRows) respond(world, joint);
 }
 
 // The joints' part of the angular impulse of bodies that step symmetrically, and where it turns
@@ -157,14 +166,12 @@ void turnSymmetric(SweepModel& world) {
   SecondOrder& second = world.bodies.second;
   if (second.empty()) return;
   for (Vec3& twist : second.jointTwist) twist.setZero();
-  forEachJoint(world, [&](auto& item, auto& lambda, auto&, std::size_t k) {
-    const JointRows& joint = world.jointRows[k];
-    if (!joint.isSymmetric) return;
+  for (const JointRows& joint : world.jointRows) {
+    if (!joint.isSymmetric) continue;
     for (int b = 0; b < 2; ++b) {
-      second.jointTwist[item.bodies[b]] +=
-          joint.angular[b].topRows(joint.rows).transpose() * lambda.total;
+      second.jointTwist[joint.bodies[b]] += joint.angular[b].transpose() * joint.totals();
     }
-  });
+  }
   balance(world.bodies, Scheme::kSymmetric);
 }
 
@@ -178,13 +185,10 @@ double largestError(const SweepModel& world) {
 }
 
 // Joints that let go, or pull where they may only push: the active set is not found yet.
-bool setChanges(SweepModel& world) {
-  bool changes = false;
-  forEachJoint(world, [&](auto&, auto& lambda, auto&, std::size_t k) {
-    const JointRows& joint = world.jointRows[k];
-    changes = changes || joint.changes || joint.side * lambda.total[0] < 0;
+bool setChanges(const SweepModel& world) {
+  return std::any_of(world.jointRows.begin(), world.jointRows.end(), [](const JointRows& joint) {
+    return joint.changes || joint.side * joint.total[0] < 0;
   });
-  return changes;
 }
 
 // One Newton step for all joints. False: the factor broke down or gave something not finite.
@@ -238,6 +242,19 @@ void projectJoints(SweepModel& world) {
       velocity.w += joint.responseAngular[b] * world.jointChange[k];
     }
   }
+}
+
+void nameWorstJoint(const SweepModel& world, StepReport& report) {
+  const JointRows* worst = nullptr;
+  double most = -1;
+  for (std::size_t k = 0; k < world.jointRows.size(); ++k) {
+    const double size = world.jointRows[k].right.norm() + world.jointChange[k].norm();
+    if (!std::isfinite(most) || size <= most) continue;
+    most = size;
+    worst = &world.jointRows[k];
+  }
+  if (worst != nullptr)
+    nameCulprit(report, worst->word, worst->item, moverOf(*worst, world.bodies));
 }
 
 void direct(SweepModel& world, double dt, StepReport& report) {

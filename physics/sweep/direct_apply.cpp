@@ -1,8 +1,6 @@
 // A Newton step's displacements.
 #include "physics/sweep/direct_apply.h"
 
-#include "physics/sweep/direct_joints.h"
-
 namespace physics {
 namespace {
 
@@ -27,10 +25,10 @@ void applyNewtonStep(SweepModel& world) {
     m.torque = -m.lagAngular;
   }
   addResponses(world);
-  forEachJoint(world, [&](auto&, auto& lambda, auto&, std::size_t k) {
-    lambda.total += world.jointChange[k]
-                        .template head<std::decay_t<decltype(lambda.total)>::RowsAtCompileTime>();
-  });
+  for (std::size_t k = 0; k < world.jointRows.size(); ++k) {
+    const JointRows& joint = world.jointRows[k];
+    for (int r = 0; r < joint.rows; ++r) joint.total[r] += world.jointChange[k][r];
+  }
   for (const BodyId i : world.bodies.active) {
     JointMotion& m = world.jointMotion[i];
     if (world.bodies.inverse[i].m == 0) continue;

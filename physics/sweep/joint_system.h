@@ -17,6 +17,10 @@ namespace physics {
 struct JointRows {
   static constexpr int kMostRows = 3;
   std::array<BodyId, 2> bodies{};
+  const char* word = "";    // its kind's
+  std::size_t item = 0;     // in the kind's set
+  double* total = nullptr;  // the multiplier of the first row; the others' follow it
+  double regularisation = 0;
   int first = 0, rows = 0;
   double alpha = 0;
   double error = 0;                     // |c|
@@ -26,6 +30,13 @@ struct JointRows {
   Vec3 right = Vec3::Zero();            // -(c + alpha lambda) + J M^-1 r, of the motion
   std::array<Mat3, 2> linear, angular;  // J, one row per constraint row
   std::array<Mat3, 2> responseLinear, responseAngular;  // (M + K)^-1 J^T, one column per row
+
+  int end() const { return first + rows; }
+  Vec3 totals() const {  // padded
+    Vec3 padded = Vec3::Zero();
+    for (int r = 0; r < rows; ++r) padded[r] = total[r];
+    return padded;
+  }
 };
 
 // What all joints together do to one body in a substep.
