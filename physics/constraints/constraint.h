@@ -125,10 +125,9 @@ Form formOf(const C& item) {
 }
 
 // A constraint or force without its kind: all that its solve asks of it once it is evaluated.
-template <int kBodyCount, int kRowCount, bool kForce>
+template <int kBodyCount, int kRowCount>
 struct RowShape {
   static constexpr int kBodies = kBodyCount, kRows = kRowCount;
-  static constexpr bool kIsForce = kForce;
   std::span<const BodyId,
             kBodies == kMany ? std::dynamic_extent : static_cast<std::size_t>(std::max(kBodies, 0))>
       bodies;
@@ -136,7 +135,7 @@ struct RowShape {
   Form form;
 };
 template <class C>
-RowShape<C::kBodies, C::kRows, Force<C>> shapeOf(const C& item) {
+RowShape<C::kBodies, C::kRows> shapeOf(const C& item) {
   return {item.bodies, hasLinear(item), hasAngular(item), formOf(item)};
 }
 

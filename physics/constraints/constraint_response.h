@@ -7,24 +7,24 @@
 
 namespace physics {
 
-// A = J M^-1 J^T, and M^-1 J^T in `response`. massOf(body) is any struct of the inverse mass and
-// the inverse inertia in the world.
-template <class C, class F>
-Eigen::Matrix<double, C::kRows, C::kRows> respond(const C& item, const Evaluated<C>& row,
-                                                  Response<C>& response, F&& massOf) {
-  Eigen::Matrix<double, C::kRows, C::kRows> a;
+// A = J M^-1 J^T, and M^-1 J^T in `response`.
+template <int B, int R>
+Eigen::Matrix<double, R, R> respond(const RowShape<B, R>& shape, const Gradients<B, R>& row,
+                                    std::span<const InverseMass> masses,
+                                    ResponseOf<B, R>& response) {
+  Eigen::Matrix<double, R, R> a;
   a.setZero();
-  if constexpr (C::kBodies == kMany) {
-    response.linear.resize(item.bodies.size());
-    response.angular.resize(item.bodies.size());
+  if constexpr (B == kMany) {
+    response.linear.resize(shape.bodies.size());
+    response.angular.resize(shape.bodies.size());
   }
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const auto& [inverse, inertia] = massOf(item.bodies[b]);
-    if (hasLinear(item)) {
+  for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
+    const auto& [inverse, inertia] = masses[shape.bodies[b]];
+    if (shape.isLinear) {
       response.linear[b] = inverse * row.linear[b].transpose();
       a.noalias() += row.linear[b].lazyProduct(response.linear[b]);
     }
-    if (hasAngular(item)) {
+    if (shape.isAngular) {
       response.angular[b].noalias() = inertia.lazyProduct(row.angular[b].transpose());
       a.noalias() += row.angular[b].lazyProduct(response.angular[b]);
     }
@@ -33,33 +33,30 @@ Eigen::Matrix<double, C::kRows, C::kRows> respond(const C& item, const Evaluated
 }
 
 template <class C>
-Eigen::Matrix<double, C::kRows, C::kRows> effectiveMassInverse(const C& item,
-                                                               const Evaluated<C>& row,
-                                                               std::span<const InverseMass> inverse,
-                                                               Response<C>& response) {
-  const auto massOf = [&](BodyId body) -> const InverseMass& { return inverse[body]; };
-  return respond(item, row, response, massOf);
+MatrixOf<C> effectiveMassInverse(const C& item, const Gradients<C::kBodies, C::kRows>& row,
+                                 std::span<const InverseMass> masses, Response<C>& response) {
+  return respond(shapeOf(item), row, masses, response);
 }
 
 // Displaces one body by the change `delta` of a multiplier.
-template <class C>
-DeltaX displacementOf(const C& item, const Response<C>& response, std::size_t b,
-                      const VectorOf<C>& delta) {
+template <int B, int R>
+DeltaX displacementOf(const RowShape<B, R>& shape, const ResponseOf<B, R>& response, std::size_t b,
+                      const Eigen::Matrix<double, R, 1>& delta) {
   DeltaX moved;
-  if (hasLinear(item)) moved.dx = response.linear[b].lazyProduct(delta);
-  if (hasAngular(item)) moved.dtheta = response.angular[b].lazyProduct(delta);
+  if (shape.isLinear) moved.dx = response.linear[b].lazyProduct(delta);
+  if (shape.isAngular) moved.dtheta = response.angular[b].lazyProduct(delta);
   return moved;
 }
 
-template <class C>
-void displaceBodies(const C& item, const Response<C>& response, const VectorOf<C>& delta,
-                    Bodies& bodies) {
+template <int B, int R>
+void displaceBodies(const RowShape<B, R>& shape, const ResponseOf<B, R>& response,
+                    const Eigen::Matrix<double, R, 1>& delta, Bodies& bodies) {
   if (delta.isZero(0)) return;
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const BodyId id = item.bodies[b];
-    const DeltaX moved = displacementOf(item, response, b, delta);
-    if (hasLinear(item)) bodies.shift[id] += moved.dx;
-    if (hasAngular(item)) {
+  for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
+    const BodyId id = shape.bodies[b];
+    const DeltaX moved = displacementOf(shape, response, b, delta);
+    if (shape.isLinear) bodies.shift[id] += moved.dx;
+    if (shape.isAngular) {
       displace(bodies.pose[id], moved.dx, moved.dtheta);
     } else {
       bodies.pose[id].x += moved.dx;
@@ -69,12 +66,15 @@ void displaceBodies(const C& item, const Response<C>& response, const VectorOf<C
 
 // The first of a constraint's bodies that can move; the world where none can. Joined bodies share
 // scheme and step, and this one tells them.
-template <class C>
-BodyId moverOf(const C& item, const Bodies& bodies) {
-  for (const BodyId body : item.bodies) {
+inline BodyId moverOf(std::span<const BodyId> joined, const Bodies& bodies) {
+  for (const BodyId body : joined) {
     if (bodies.motion[body] != Motion::kStatic) return body;
   }
   return kWorldBody;
+}
+template <class C>
+BodyId moverOf(const C& item, const Bodies& bodies) {
+  return moverOf(std::span<const BodyId>(item.bodies), bodies);
 }
 
 // The step of the bodies that a constraint joins [s].
@@ -98,22 +98,24 @@ Configuration configurationOf(const C& item, const Bodies& bodies, double dt) {
 }
 
 // Keeps the account of the angular impulses that the second-order steppings balance.
-template <class C>
-void countTwist(const C& item, const Evaluated<C>& row, const VectorOf<C>& delta, Bodies& bodies) {
-  if (bodies.second.empty() || !hasAngular(item)) return;
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    bodies.second.twist[item.bodies[b]] += row.angular[b].transpose() * delta;
+template <int B, int R>
+void countTwist(const RowShape<B, R>& shape, const Gradients<B, R>& row,
+                const Eigen::Matrix<double, R, 1>& delta, Bodies& bodies) {
+  if (bodies.second.empty() || !shape.isAngular) return;
+  for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
+    bodies.second.twist[shape.bodies[b]] += row.angular[b].transpose() * delta;
   }
 }
 
 // J dX.
-template <class C>
-VectorOf<C> along(const C& item, const Evaluated<C>& row, std::span<const DeltaX> displaced) {
-  VectorOf<C> sum = VectorOf<C>::Zero();
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    const DeltaX& moved = displaced[item.bodies[b]];
-    if (hasLinear(item)) sum += row.linear[b].lazyProduct(moved.dx);
-    if (hasAngular(item)) sum += row.angular[b].lazyProduct(moved.dtheta);
+template <int B, int R>
+Eigen::Matrix<double, R, 1> along(const RowShape<B, R>& shape, const Gradients<B, R>& row,
+                                  std::span<const DeltaX> displaced) {
+  Eigen::Matrix<double, R, 1> sum = Eigen::Matrix<double, R, 1>::Zero();
+  for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
+    const DeltaX& moved = displaced[shape.bodies[b]];
+    if (shape.isLinear) sum += row.linear[b].lazyProduct(moved.dx);
+    if (shape.isAngular) sum += row.angular[b].lazyProduct(moved.dtheta);
   }
   return sum;
 }

@@ -61,45 +61,45 @@ VectorOf<C> standingError(const Evaluated<C>& row) {
   }
 }
 
-// The new total of a constraint whose error is c.
-template <class C>
-VectorOf<C> solved(const C& item, const Evaluated<C>& row, const MatrixOf<C>& a, const Tuned& tuned,
-                   const VectorOf<C>& c, const VectorOf<C>& total) {
-  const double extra = tuned.regularisation * a.trace() / C::kRows;  // (54)
-  const VectorOf<C> residual = c + (row.alpha + (tuned.damps ? 0 : extra)) * total;
-  VectorOf<C> next =
-      total + step<C::kRows>(a, row.alpha + extra, tuned.relaxation, formOf(item), residual);
-  clampTotal(next, row.low, row.high, row.longest);
-  return next;
+// The new total of a constraint whose error is c, before its bounds.
+template <int R>
+Eigen::Matrix<double, R, 1> solved(Form form, double alpha, const Eigen::Matrix<double, R, R>& a,
+                                   const Tuned& tuned, const Eigen::Matrix<double, R, 1>& c,
+                                   const Eigen::Matrix<double, R, 1>& total) {
+  const double extra = tuned.regularisation * a.trace() / R;  // (54)
+  const Eigen::Matrix<double, R, 1> residual = c + (alpha + (tuned.damps ? 0 : extra)) * total;
+  return total + step<R>(a, alpha + extra, tuned.relaxation, form, residual);
 }
 
 // The new total of a force: (1 + K A) dlambda = xi (f h^2 - lambda), (106),(118),(124).
-template <class C>
-VectorOf<C> pushed(const Evaluated<C>& push, const MatrixOf<C>& a, double xi,
-                   const VectorOf<C>& total) {
-  using Matrix = MatrixOf<C>;
-  const Matrix left = Matrix::Identity() + push.k * a;
-  VectorOf<C> next = total + xi * (left.inverse() * (push.f - total));
+template <int R>
+Eigen::Matrix<double, R, 1> pushed(const Eigen::Matrix<double, R, 1>& f,
+                                   const Eigen::Matrix<double, R, R>& k, double longest,
+                                   const Eigen::Matrix<double, R, R>& a, double xi,
+                                   const Eigen::Matrix<double, R, 1>& total) {
+  const Eigen::Matrix<double, R, R> left = Eigen::Matrix<double, R, R>::Identity() + k * a;
+  Eigen::Matrix<double, R, 1> next = total + xi * (left.inverse() * (f - total));
   constexpr double kFree = std::numeric_limits<double>::infinity();
-  clampTotal(next, -kFree, kFree, push.longest);
+  clampTotal(next, -kFree, kFree, longest);
   return next;
 }
 
-// The rest of a visit to what has been evaluated.
-template <class S>
-bool solveEvaluated(const S& shape, Multipliers<S>& lambda, const Tuned& tuned, Bodies& bodies,
-                    Scratch<S>& s) {
+// The rest of a visit to what has been evaluated, a Row or a Push.
+template <int B, int R, class RowOrPush>
+bool solveEvaluated(const RowShape<B, R>& shape, Totals<R>& lambda, const Tuned& tuned,
+                    Bodies& bodies, RowAndResponse<RowOrPush, ResponseOf<B, R>>& s) {
   if (!s.row.active) return true;
   const auto a = effectiveMassInverse(shape, s.row, bodies.inverse, s.response);
   if (!(a.trace() > 0)) return a.trace() == a.trace();  // nothing here can move
-  VectorOf<S> next;
-  if constexpr (S::kIsForce) {
-    next = pushed<S>(s.row, a, tuned.relaxation, lambda.total);
+  Eigen::Matrix<double, R, 1> next;
+  if constexpr (std::is_same_v<RowOrPush, Push<B, R>>) {
+    next = pushed<R>(s.row.f, s.row.k, s.row.longest, a, tuned.relaxation, lambda.total);
   } else {
-    next = solved(shape, s.row, a, tuned, s.row.c, lambda.total);
+    next = solved<R>(shape.form, s.row.alpha, a, tuned, s.row.c, lambda.total);
+    clampTotal(next, s.row.low, s.row.high, s.row.longest);
   }
   if (!next.allFinite()) return false;
-  const VectorOf<S> change = next - lambda.total;
+  const Eigen::Matrix<double, R, 1> change = next - lambda.total;
   lambda.total = next;
   displaceBodies(shape, s.response, change, bodies);
   countTwist(shape, s.row, change, bodies);

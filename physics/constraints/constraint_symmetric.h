@@ -14,19 +14,22 @@ inline Pose middleOf(const Pose& from, const Pose& to) {
 }
 
 // A force that was evaluated in the middle.
-template <class S>
-bool pushSymmetric(const S& shape, Multipliers<S>& lambda, const Tuned& tuned, Bodies& bodies,
-                   Scratch<S>& s) {
+template <int B, int R>
+bool pushSymmetric(const RowShape<B, R>& shape, Totals<R>& lambda, const Tuned& tuned,
+                   Bodies& bodies, RowAndResponse<Push<B, R>, ResponseOf<B, R>>& s) {
   if (!s.row.active) return true;
   SecondOrder& second = bodies.second;
   const auto a = effectiveMassInverse(shape, s.row, bodies.inverse, s.response);
   if (!(a.trace() > 1e-300)) return a.trace() == a.trace();
-  const VectorOf<S> change = pushed<S>(s.row, a, tuned.relaxation, lambda.total) - lambda.total;
+  using Vector = Eigen::Matrix<double, R, 1>;
+  const Vector change =
+      pushed<R>(s.row.f, s.row.k, s.row.longest, a, tuned.relaxation, lambda.total) - lambda.total;
   if (!change.allFinite()) return false;
   lambda.step = 0.5 * second.h;
   lambda.total += change;  // force times (h/2)^2; it moves the bodies by h^2/2
-  displaceBodies(shape, s.response, (2 * change).eval(), bodies);
-  countTwist(shape, s.row, (2 * change).eval(), bodies);
+  const Vector moving = 2 * change;
+  displaceBodies(shape, s.response, moving, bodies);
+  countTwist(shape, s.row, moving, bodies);
   for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
     DeltaX& kick = second.kick[shape.bodies[b]];
     if (shape.isLinear) kick.dx += 2 * s.response.linear[b].lazyProduct(change);
@@ -36,12 +39,16 @@ bool pushSymmetric(const S& shape, Multipliers<S>& lambda, const Tuned& tuned, B
 }
 
 // A constraint whose error at the end is c, and whose J at the start was evaluated.
-template <class S>
-bool correctSymmetric(const S& shape, const VectorOf<S>& c, Multipliers<S>& lambda,
-                      const Tuned& tuned, Bodies& bodies, Scratch<S>& s) {
+template <int B, int R>
+bool correctSymmetric(const RowShape<B, R>& shape, const Eigen::Matrix<double, R, 1>& c,
+                      Totals<R>& lambda, const Tuned& tuned, Bodies& bodies,
+                      RowAndResponse<Row<B, R>, ResponseOf<B, R>>& s) {
   const auto a = effectiveMassInverse(shape, s.row, bodies.inverse, s.response);
   if (!(a.trace() > 1e-300)) return a.trace() == a.trace();
-  const VectorOf<S> change = solved(shape, s.row, a, tuned, c, lambda.total) - lambda.total;
+  using Vector = Eigen::Matrix<double, R, 1>;
+  Vector next = solved<R>(shape.form, s.row.alpha, a, tuned, c, lambda.total);
+  clampTotal(next, s.row.low, s.row.high, s.row.longest);
+  const Vector change = next - lambda.total;
   if (!change.allFinite()) return false;
   lambda.total += change;
   displaceBodies(shape, s.response, change, bodies);
@@ -70,20 +77,21 @@ bool solveSymmetric(const C& item, Multipliers<C>& lambda, const Tuned& tuned, B
 }
 
 // v += M^-1 J^T mu with J v = 0, J evaluated. Returns the change of J v [m/s, rad/s].
-template <class S>
-double projectEvaluated(const S& shape, Bodies& bodies, Scratch<S>& s) {
+template <int B, int R>
+double projectEvaluated(const RowShape<B, R>& shape, Bodies& bodies,
+                        RowAndResponse<Row<B, R>, ResponseOf<B, R>>& s) {
   constexpr double kFree = std::numeric_limits<double>::infinity();
   if (!s.row.active || s.row.low != -kFree || s.row.high != kFree) return 0;  // a limit at rest
   auto a = effectiveMassInverse(shape, s.row, bodies.inverse, s.response);
   if (!(a.trace() > 1e-300)) return 0;
   a.diagonal().array() += 1e-12 * a.trace();  // 1e4 roundings: regular where its rows repeat
-  VectorOf<S> rate = VectorOf<S>::Zero();
+  Eigen::Matrix<double, R, 1> rate = Eigen::Matrix<double, R, 1>::Zero();
   for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
     const Velocity& velocity = bodies.velocity[shape.bodies[b]];
     if (shape.isLinear) rate += s.row.linear[b] * velocity.v;
     if (shape.isAngular) rate += s.row.angular[b] * velocity.w;
   }
-  const VectorOf<S> mu = -(a.inverse() * rate);
+  const Eigen::Matrix<double, R, 1> mu = -(a.inverse() * rate);
   for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
     const DeltaX change = displacementOf(shape, s.response, b, mu);
     bodies.velocity[shape.bodies[b]].v += change.dx;

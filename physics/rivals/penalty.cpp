@@ -22,7 +22,7 @@ void pushAll(RivalModel& world, double dt) {
     if (!frozen.row.active) return;
     *frozen.total = frozen.f;
     for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
-      const DeltaX step = displacementOf(frozen, frozen.response, b, frozen.f);
+      const DeltaX step = displacementOf(shapeOf(frozen), frozen.response, b, frozen.f);
       velocity[frozen.bodies[b]].v += step.dx / dt;
       velocity[frozen.bodies[b]].w += step.dtheta / dt;
     }
@@ -179,7 +179,7 @@ void keepTotals(RivalModel& world) {
   forEachRow(world, [&](auto& frozen) {
     frozen.total->setZero();
     if (!frozen.row.active) return;
-    *frozen.total = frozen.f - frozen.k * along(frozen, frozen.row, world.penalty.step);
+    *frozen.total = frozen.f - frozen.k * along(shapeOf(frozen), frozen.row, world.penalty.step);
   });
   for (const StiffTouch& contact : world.penalty.touches) {
     *contact.normal = contact.f[0];

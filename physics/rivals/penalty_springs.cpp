@@ -72,7 +72,7 @@ bool takeSpring(const PenaltyScheme& scheme, const RivalModel& world, R& frozen)
     frozen.k = share * row.k;
   } else {
     const double share = scheme.implicit ? 1 : sharers(world, frozen.bodies);
-    stiffen(scheme, share, along(frozen, row, world.penalty.moved), frozen);
+    stiffen(scheme, share, along(shapeOf(frozen), row, world.penalty.moved), frozen);
   }
   return frozen.f.allFinite();
 }

@@ -51,7 +51,7 @@ void freeze(RivalModel& world, const KindPlace& kind, std::size_t k, double dt, 
   evaluate(world.kinds, kind.place, k, {pose, pose, dt}, frozen);
   if constexpr (R::kIsForce) {
     evaluateForce(world.kinds, kind.place, k, {world.ahead, pose, dt}, frozen);
-    frozen.row.f += frozen.row.k * along(frozen, frozen.row, world.impulses.moved);
+    frozen.row.f += frozen.row.k * along(shapeOf(frozen), frozen.row, world.impulses.moved);
   }
   if (!frozen.row.active) return;
   frozen.a = effectiveMassInverse(frozen, frozen.row, world.bodies.inverse, frozen.response);
@@ -87,7 +87,7 @@ void freezeAll(RivalModel& world, double dt, Stage stage, StepReport& report) {
 template <class R>
 void give(const R& frozen, const VectorOf<R>& change, std::vector<DeltaX>& moved) {
   for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
-    const DeltaX step = displacementOf(frozen, frozen.response, b, change);
+    const DeltaX step = displacementOf(shapeOf(frozen), frozen.response, b, change);
     moved[frozen.bodies[b]].dx += step.dx;
     moved[frozen.bodies[b]].dtheta += step.dtheta;
   }
@@ -134,9 +134,8 @@ VectorOf<R> nextTotal(const R& frozen, Softness soft, Stage stage, const VectorO
   const auto& row = frozen.row;
   const double xi = frozen.tuned.relaxation;
   if constexpr (R::kIsForce) {
-    auto push = row;
-    push.f -= row.k * follow;
-    return pushed<R>(push, frozen.a, xi, *frozen.total);
+    return pushed<R::kRows>(row.f - row.k * follow, row.k, row.longest, frozen.a, xi,
+                            *frozen.total);
   } else {
     const double extra = frozen.tuned.regularisation * frozen.a.trace() / R::kRows;
     const double alpha = row.alpha + extra;
@@ -160,7 +159,8 @@ std::size_t sweepRows(std::vector<R>& rows, Softness soft, Stage stage,
   for (std::size_t k = 0; k < rows.size(); ++k) {
     R& frozen = rows[k];
     if (!frozen.row.active || !(frozen.a.trace() > 1e-300)) continue;
-    const VectorOf<R> next = nextTotal(frozen, soft, stage, along(frozen, frozen.row, moved));
+    const VectorOf<R> next =
+        nextTotal(frozen, soft, stage, along(shapeOf(frozen), frozen.row, moved));
     if (!next.allFinite()) return k;
     give(frozen, next - *frozen.total, moved);
     *frozen.total = next;

@@ -50,7 +50,7 @@ VectorOf<R> nextTotal(const R& frozen) {
   const auto& row = frozen.row;
   const VectorOf<R>& total = *frozen.total;
   if constexpr (R::kIsForce) {
-    return pushed<R>(row, frozen.a, frozen.tuned.relaxation, total);
+    return pushed<R::kRows>(row.f, row.k, row.longest, frozen.a, frozen.tuned.relaxation, total);
   } else {
     const double alpha = row.alpha + frozen.tuned.regularisation * frozen.a.trace() / R::kRows;
     const VectorOf<R> residual = row.c + alpha * total;
@@ -68,8 +68,9 @@ bool project(R& frozen, Bodies& bodies) {
   if (!(frozen.a.trace() > 1e-300)) return std::isfinite(frozen.a.trace());  // nothing can move
   const VectorOf<R> next = nextTotal(frozen);
   if (!next.allFinite()) return false;
+  const VectorOf<R> change = next - *frozen.total;
   for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
-    const DeltaX moved = displacementOf(frozen, frozen.response, b, next - *frozen.total);
+    const DeltaX moved = displacementOf(shapeOf(frozen), frozen.response, b, change);
     Pose& pose = bodies.pose[frozen.bodies[b]];
     pose.x += moved.dx;
     if (frozen.isAngular) pose.q = turned(pose.q, moved.dtheta);

@@ -105,12 +105,14 @@ void sweepPoint(FrozenPoint& point, double xi, SweepModel& world) {
 template <class R>
 VectorOf<R> nextTotal(const R& frozen, const VectorOf<R>& follow) {
   if constexpr (R::kIsForce) {
-    auto push = frozen.row;
-    push.f -= push.k * follow;
-    return pushed<R>(push, frozen.a, frozen.tuned.relaxation, *frozen.total);
+    return pushed<R::kRows>(frozen.row.f - frozen.row.k * follow, frozen.row.k, frozen.row.longest,
+                            frozen.a, frozen.tuned.relaxation, *frozen.total);
   } else {
-    return solved(frozen, frozen.row, frozen.a, frozen.tuned, (frozen.row.c + follow).eval(),
-                  *frozen.total);
+    const auto& row = frozen.row;
+    VectorOf<R> next = solved<R::kRows>(frozen.form, row.alpha, frozen.a, frozen.tuned,
+                                        row.c + follow, *frozen.total);
+    clampTotal(next, row.low, row.high, row.longest);
+    return next;
   }
 }
 
@@ -120,10 +122,11 @@ std::size_t sweepRows(std::vector<R>& rows, std::vector<DeltaX>& moved) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     R& frozen = rows[k];
     if (!frozen.row.active || !(frozen.a.trace() > 0)) continue;
-    const VectorOf<R> next = nextTotal(frozen, along(frozen, frozen.row, moved));
+    const VectorOf<R> next = nextTotal(frozen, along(shapeOf(frozen), frozen.row, moved));
     if (!next.allFinite()) return k;
+    const VectorOf<R> change = next - *frozen.total;
     for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
-      const DeltaX step = displacementOf(frozen, frozen.response, b, next - *frozen.total);
+      const DeltaX step = displacementOf(shapeOf(frozen), frozen.response, b, change);
       moved[frozen.bodies[b]].dx += step.dx;
       moved[frozen.bodies[b]].dtheta += step.dtheta;
     }
