@@ -21,7 +21,8 @@ foreach(name physics render scenes)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/dbd>)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dbd
           COMPONENT library FILES_MATCHING PATTERN "*.h"
-          PATTERN "library" EXCLUDE PATTERN "figures" EXCLUDE PATTERN "studies" EXCLUDE PATTERN "words" EXCLUDE)
+          PATTERN "library" EXCLUDE PATTERN "figures" EXCLUDE PATTERN "studies" EXCLUDE PATTERN "words" EXCLUDE
+          PATTERN "precompiled.h" EXCLUDE)
 endforeach()
 install(TARGETS dbd_physics dbd_render dbd_scenes dbd_flags EXPORT dbdTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)

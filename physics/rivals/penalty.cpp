@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/constraints/constraint_response.h"
 #include "physics/rivals/penalty_springs.h"
 
 namespace physics {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "physics/constraints/frozen_row.h"
 #include "tests/physics/kind_cases.h"
 
 namespace physics::testing {
@@ -45,6 +46,50 @@ TYPED_TEST(EveryKind, MovesSomethingWhenViolated) {
     ASSERT_TRUE(visit(item, lambda, bodies));
     EXPECT_GT(distance(before.pose.back(), bodies.pose.back()), 1e-6);
   }
+}
+
+// Methods that solve frozen rows see what the kind itself says: c, J, bounds, A, and its bodies.
+TYPED_TEST(EveryKind, IsFrozenAsItIsEvaluated) {
+  using Item = typename TypeParam::Item;
+  Random random(19);
+  Bodies bodies = randomBodies(random, countOf<Item>());
+  const Item item = Case<Item>::make(random, bodies);
+  Kinds kinds;
+  auto& set = std::get<TypeParam>(kinds).set;
+  set.items.push_back(item);
+  set.lambda.emplace_back();
+  set.tuned.push_back({1, 0});
+  const Evaluated<Item> own = rowOf(item, bodies);
+  FrozenRows rows;
+  int lists = 0;
+  forEachList(kinds, rows, [&](auto& list, const KindPlace& kind) {
+    ++lists;
+    EXPECT_STREQ(kind.word, TypeParam::kWord);
+    ASSERT_EQ(kind.count, 1U);
+    list.resize(1);
+    auto& frozen = list[0];
+    evaluate(kinds, kind.place, 0, {bodies.pose, bodies.start, 1.0 / 60}, frozen);
+    if constexpr (std::is_same_v<std::decay_t<decltype(frozen)>, FrozenOf<Item>>) {
+      EXPECT_EQ(frozen.total, &set.lambda[0].total);
+      EXPECT_TRUE(std::equal(frozen.bodies.begin(), frozen.bodies.end(), item.bodies.begin()));
+      EXPECT_EQ(frozen.row.c, own.c);
+      EXPECT_EQ(frozen.row.longest, own.longest);
+      Response<Item> response;
+      EXPECT_EQ(effectiveMassInverse(frozen, frozen.row, bodies.inverse, frozen.response),
+                effectiveMassInverse(item, own, bodies.inverse, response));
+      if constexpr (Force<Item>) {
+        EXPECT_EQ(frozen.row.f, own.f);
+        EXPECT_EQ(frozen.row.k, own.k);
+      } else {
+        EXPECT_EQ(frozen.row.alpha, own.alpha);
+        EXPECT_EQ(frozen.row.low, own.low);
+        EXPECT_EQ(frozen.row.high, own.high);
+      }
+    } else {
+      ADD_FAILURE() << "rows of another shape";
+    }
+  });
+  EXPECT_EQ(lists, 1);
 }
 
 TYPED_TEST(EveryKind, KeepsLinearMomentum) {

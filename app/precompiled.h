@@ -1,0 +1,10 @@
+// What most files here include, compiled once. Nothing includes this: every file includes what it uses.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "app/base/json.h"
+#include "app/run/play.h"
+#include "render/renderer.h"
+#include "scenes/simulation.h"
+#include "scenes/view/view.h"
