@@ -1,4 +1,4 @@
-// What most files here include, compiled once. Nothing includes this: every file includes what it uses.
+// What most files here include, compiled once. Every file includes what it uses, and none this one.
 #pragma once
 
 #include "physics/state/world_state.h"
