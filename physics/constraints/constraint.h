@@ -76,12 +76,14 @@ struct Push : Gradients<kBodies, kRows> {
   typename Gradients<kBodies, kRows>::Matrix k;  // K = -df/dc times h^2, not negative definite
 };
 
-// Forces have no error that could stand, and no row in the direct method.
 template <class C>
-concept Force = requires(const C& item, Push<C::kBodies, C::kRows>& push) {
+concept EvaluatesPush = requires(const C& item, Push<C::kBodies, C::kRows>& push) {
   item.evaluate(Configuration{}, push);
-}
-|| C::kIsForce;  // the last: frozen_row.h
+};
+
+// Forces have no error that could stand, and no row in the direct method. A frozen row says so.
+template <class C>
+concept Force = EvaluatesPush<C> || C::kIsForce;
 
 template <class C>
 using Evaluated =
@@ -97,17 +99,19 @@ constexpr bool isAngular() {
 // Whether it has J along x, along theta; of a frozen row it says so itself.
 template <class C>
 bool hasLinear(const C& item) {
-  if constexpr (requires { C::kLinear; })
+  if constexpr (requires { C::kLinear; }) {
     return C::kLinear;
-  else
+  } else {
     return item.isLinear;
+  }
 }
 template <class C>
 bool hasAngular(const C& item) {
-  if constexpr (requires { C::kLinear; })
+  if constexpr (requires { C::kLinear; }) {
     return isAngular<C>();
-  else
+  } else {
     return item.isAngular;
+  }
 }
 
 // These go by the numbers of bodies and rows alone, so that kinds of one shape share them.
@@ -158,7 +162,7 @@ struct Totals {
 template <class C>
 using Multipliers = Totals<C::kRows>;
 
-// How far its solve goes.
+// How its solve is tuned: xi of (53), epsilon of (56).
 struct Tuned {
   double relaxation, regularisation;
   bool damps = false;  // the regularisation is in mu alone
