@@ -75,6 +75,7 @@ void evaluateForce(const Kinds& kinds, int place, std::size_t item, const Config
   }
 }
 
+// A kind of another shape adds a line; the linker asks for it.
 #define DBD_SHAPE(bodies, rows, isForce)                                            \
   template void evaluate(Kinds&, int, std::size_t, const Configuration&,            \
                          FrozenRow<bodies, rows, isForce>&);                        \
