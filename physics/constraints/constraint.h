@@ -171,7 +171,6 @@ struct Tuned {
 // The constraints of one kind, in the order they were added.
 template <class C>
 struct Set {
-  using Vector = typename Row<C::kBodies, C::kRows>::Vector;
   std::vector<C> items;
   std::vector<int> active;    // items that are solved: all, but for those of bodies that sleep
   std::vector<int> overTime;  // items that follow a table

@@ -64,6 +64,17 @@ void displaceBodies(const RowShape<B, R>& shape, const ResponseOf<B, R>& respons
   }
 }
 
+// The same, added up by body.
+template <int B, int R>
+void give(const RowShape<B, R>& shape, const ResponseOf<B, R>& response,
+          const Eigen::Matrix<double, R, 1>& delta, std::span<DeltaX> moved) {
+  for (std::size_t b = 0; b < shape.bodies.size(); ++b) {
+    const DeltaX step = displacementOf(shape, response, b, delta);
+    moved[shape.bodies[b]].dx += step.dx;
+    moved[shape.bodies[b]].dtheta += step.dtheta;
+  }
+}
+
 // The first of a constraint's bodies that can move; the world where none can. Joined bodies share
 // scheme and step, and this one tells them.
 inline BodyId moverOf(std::span<const BodyId> joined, const Bodies& bodies) {

@@ -7,18 +7,17 @@
 namespace physics {
 namespace {
 
-constexpr auto kPlaces = std::make_index_sequence<std::tuple_size_v<Kinds>>();
-
 // f(set) of the kind at `place`, if its rows are of shape R.
-template <class R, class K, class F, std::size_t... kPlace>
-void atPlace(K& kinds, int place, F&& f, std::index_sequence<kPlace...>) {
-  const auto offer = [&](auto& kind, std::size_t here) {
+template <class R, class K, class F>
+void atPlace(K& kinds, int place, F&& f) {
+  int here = 0;
+  forEachKind(kinds, [&](auto& kind) {
     using C = typename std::decay_t<decltype(kind)>::Item;
     if constexpr (std::is_same_v<FrozenOf<C>, R>) {
-      if (static_cast<std::size_t>(place) == here) f(kind.set);
+      if (here == place) f(kind.set);
     }
-  };
-  (offer(std::get<kPlace>(kinds), kPlace), ...);
+    ++here;
+  });
 }
 
 // Of a row that is kept: one-sided kinds set one bound and trust that the other is open.
@@ -55,8 +54,7 @@ void take(Set<C>& set, std::size_t k, const Configuration& x, FrozenOf<C>& froze
 
 template <class R>
 void evaluate(Kinds& kinds, int place, std::size_t item, const Configuration& x, R& frozen) {
-  atPlace<R>(
-      kinds, place, [&](auto& set) { take(set, item, x, frozen); }, kPlaces);
+  atPlace<R>(kinds, place, [&](auto& set) { take(set, item, x, frozen); });
 }
 
 template <class R>
@@ -71,8 +69,18 @@ void evaluateForce(const Kinds& kinds, int place, std::size_t item, const Config
       frozen.row.k = there.k;
       frozen.row.longest = there.longest;
     };
-    atPlace<R>(kinds, place, look, kPlaces);
+    atPlace<R>(kinds, place, look);
   }
+}
+
+std::int64_t evaluateAll(Kinds& kinds, const Configuration& x, FrozenRows& rows) {
+  std::int64_t all = 0;
+  forEachList(kinds, rows, [&](auto& list, const KindPlace& kind) {
+    list.resize(kind.count);
+    for (std::size_t k = 0; k < list.size(); ++k) evaluate(kinds, kind.place, k, x, list[k]);
+    all += static_cast<std::int64_t>(kind.count);
+  });
+  return all;
 }
 
 // A kind of another shape adds a line; the linker asks for it.

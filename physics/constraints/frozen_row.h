@@ -2,6 +2,7 @@
 // solves it goes by its shape: the numbers of its bodies and rows, and whether it is a force.
 #pragma once
 
+#include <cstdint>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -77,5 +78,8 @@ template <class F>
 void forEachList(const Kinds& kinds, FrozenRows& rows, F&& f) {
   forEachList(kinds, rows, f, std::make_index_sequence<std::tuple_size_v<FrozenRows>>());
 }
+
+// Every item at x. Returns their number.
+std::int64_t evaluateAll(Kinds& kinds, const Configuration& x, FrozenRows& rows);
 
 }  // namespace physics

@@ -26,7 +26,7 @@ void look(const C& item, WorldState& w, Scratch<C>& s, Need& need) {
   if constexpr (Force<C>) {
     item.evaluate(configurationOf(item, w.bodies, w.settings.dt / n), s.row);
     if (!s.row.active) return;
-    const auto a = effectiveMassInverse(shapeOf(item), s.row, w.bodies.inverse, s.response);
+    const auto a = effectiveMassInverse(item, s.row, w.bodies.inverse, s.response);
     const double square = (s.row.k * a).trace();  // >= (w h)^2, K and A are not negative
     if (square > 0) need.least = std::max(need.least, n * std::sqrt(square) / kResolved);
   } else if constexpr (canStand<C>()) {

@@ -77,14 +77,6 @@ bool takeSpring(const PenaltyScheme& scheme, const RivalModel& world, R& frozen)
   return frozen.f.allFinite();
 }
 
-void evaluateRows(RivalModel& world, const Configuration& x, StepReport& report) {
-  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
-    rows.resize(kind.count);
-    for (std::size_t k = 0; k < rows.size(); ++k) evaluate(world.kinds, kind.place, k, x, rows[k]);
-    report.constraintEvaluations += static_cast<std::int64_t>(rows.size());
-  });
-}
-
 bool takeRows(RivalModel& world, const PenaltyScheme& scheme, StepReport& report) {
   bool finite = true;
   forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
@@ -213,7 +205,7 @@ void takeMoved(RivalModel& world, double dt) {
 
 bool takeSprings(RivalModel& world, const Configuration& x, const PenaltyScheme& scheme, bool first,
                  StepReport& report) {
-  evaluateRows(world, x, report);
+  report.constraintEvaluations += evaluateAll(world.kinds, x, world.frozen);
   if (!scheme.implicit) countMeetings(world, report);
   return takeRows(world, scheme, report) && takeTouches(world, x.dt, scheme, first, report);
 }

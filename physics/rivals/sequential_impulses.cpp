@@ -84,15 +84,6 @@ void freezeAll(RivalModel& world, double dt, Stage stage, StepReport& report) {
   freezeTouches(world, report);
 }
 
-template <class R>
-void give(const R& frozen, const VectorOf<R>& change, std::vector<DeltaX>& moved) {
-  for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
-    const DeltaX step = displacementOf(shapeOf(frozen), frozen.response, b, change);
-    moved[frozen.bodies[b]].dx += step.dx;
-    moved[frozen.bodies[b]].dtheta += step.dtheta;
-  }
-}
-
 void give(const ImpulseTouch& contact, const TouchRow& row, double change,
           std::vector<DeltaX>& moved) {
   for (int b = 0; b < contact.touch.count; ++b) {
@@ -114,7 +105,8 @@ void warmStart(RivalModel& world) {
   forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace&) {
     for (auto& frozen : rows) {
       if (!frozen.row.active) frozen.total->setZero();
-      if (!frozen.total->isZero(0)) give(frozen, *frozen.total, world.impulses.moved);
+      if (frozen.total->isZero(0)) continue;
+      give(shapeOf(frozen), frozen.response, *frozen.total, std::span(world.impulses.moved));
     }
   });
   for (ImpulseTouch& contact : world.impulses.touches) {
@@ -162,7 +154,8 @@ std::size_t sweepRows(std::vector<R>& rows, Softness soft, Stage stage,
     const VectorOf<R> next =
         nextTotal(frozen, soft, stage, along(shapeOf(frozen), frozen.row, moved));
     if (!next.allFinite()) return k;
-    give(frozen, next - *frozen.total, moved);
+    const VectorOf<R> change = next - *frozen.total;
+    give(shapeOf(frozen), frozen.response, change, moved);
     *frozen.total = next;
   }
   return rows.size();

@@ -16,7 +16,7 @@ template <class C>
 bool holds(const C& item, const Row<C::kBodies, C::kRows>& row, double lambda,
            const Bodies& bodies) {
   Response<C> response;
-  const double a = effectiveMassInverse(shapeOf(item), row, bodies.inverse, response).trace();
+  const double a = effectiveMassInverse(item, row, bodies.inverse, response).trace();
   if (!(a > 0)) return false;
   const double wanted = lambda - row.c[0] / a;
   return row.high <= 0 ? wanted < 0 : wanted > 0;

@@ -125,11 +125,7 @@ std::size_t sweepRows(std::vector<R>& rows, std::vector<DeltaX>& moved) {
     const VectorOf<R> next = nextTotal(frozen, along(shapeOf(frozen), frozen.row, moved));
     if (!next.allFinite()) return k;
     const VectorOf<R> change = next - *frozen.total;
-    for (std::size_t b = 0; b < frozen.bodies.size(); ++b) {
-      const DeltaX step = displacementOf(shapeOf(frozen), frozen.response, b, change);
-      moved[frozen.bodies[b]].dx += step.dx;
-      moved[frozen.bodies[b]].dtheta += step.dtheta;
-    }
+    give(shapeOf(frozen), frozen.response, change, moved);
     *frozen.total = next;
   }
   return rows.size();
@@ -164,17 +160,13 @@ void keepTotals(SweepModel& world) {
 }  // namespace
 
 void linearGaussSeidel(SweepModel& world, double dt, StepReport& report) {
-  std::int64_t visits = 0;
-  const Configuration x{world.bodies.pose, world.bodies.start, dt};
-  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace& kind) {
-    rows.resize(kind.count);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      auto& frozen = rows[k];
-      evaluate(world.kinds, kind.place, k, x, frozen);
+  const std::int64_t visits =
+      evaluateAll(world.kinds, {world.bodies.pose, world.bodies.start, dt}, world.frozen);
+  forEachList(world.kinds, world.frozen, [&](auto& rows, const KindPlace&) {
+    for (auto& frozen : rows) {
       if (!frozen.row.active) continue;
       frozen.a = effectiveMassInverse(frozen, frozen.row, world.bodies.inverse, frozen.response);
     }
-    visits += static_cast<std::int64_t>(rows.size());
   });
   freezeContacts(world);
   world.linear.moved.assign(world.bodies.pose.size(), DeltaX{});
