@@ -84,8 +84,13 @@ struct LaneRows {
 void takeRows(const LaneRows& rows, int l, ContactBlock& m) {
   constexpr int kFriction = LaneRows::kFriction, kTwist = LaneRows::kTwist;
   for (int k = 0; k < m.points; ++k) {
-    if (!(m.point[k].inverse[l] > 0)) continue;
-    m.point[k].inverse[l] = static_cast<float>(1 / rows.between(k, k));
+    float& inverse = m.point[k].inverse[l];
+    if (!(inverse > 0)) continue;
+    const auto seen = static_cast<float>(1 / rows.between(k, k));
+    const float drawn = m.drawn[k][l] * (inverse / seen);  // by `held`, as stiff as that
+    m.gap[k][l] += m.drawn[k][l] - drawn;
+    m.drawn[k][l] = drawn;
+    inverse = seen;
     for (int i = 0; i < k; ++i) {
       m.coupling[i == 0 ? k - 1 : i + k][l] = static_cast<float>(rows.between(i, k));
     }

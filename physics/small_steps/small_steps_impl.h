@@ -384,6 +384,7 @@ struct SmallSteps::Impl {
   bool findRise(Model& w, Batch& batch);
   void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares);
   void forgetLoads(Model& w, Batch& batch);
+  void holdCarried(const Model& w, const Batch& batch, double h);
   void boundWork(Model& w, Batch& batch, const JointStage& stage);
   void solvePositions(Model& w, Batch& batch, double h);
   void sweepDeformables(Model& w, Batch& batch, double h);

@@ -23,8 +23,8 @@ struct KeptContact {
   // Impulses times the step, on a: along the normal, at the last substep and a step earlier; of
   // friction at the centre (world), and of its twist about the normal.
   std::array<double, Manifold::kMaxPoints> lambda{}, before{};
-  // Force [N] about which it gives way: that the points carried where the world began, or that two
-  // rows of an accuracy's step agreed on.
+  // Force [N] about which it gives way: that the points carried where the world began, that two rows
+  // of an accuracy's step agreed on, or that jointed bodies have come to rest on.
   std::array<double, Manifold::kMaxPoints> held{};
   Vec3 tangential = Vec3::Zero();
   double twist = 0;

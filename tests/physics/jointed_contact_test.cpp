@@ -101,6 +101,46 @@ TEST(JointedContact, LightFeetUnderAHeavyBodyRestAtTenStepsASecond) {
   EXPECT_LT(most, 0.05);
 }
 
+// A hand of 0.45 kg at an arm, and 100 kg on it: by its own mass it would give way by 11 mm.
+struct LoadedHand {
+  World world;
+  BodyId hand, load;
+  LoadedHand() : world(heavy()) {
+    addFloor(world);
+    const BodyId arm = addBlock(world, Vec3(0.3, 0.06, 0.06), Vec3(-0.2, 0.04, 0), 2);
+    hand = addBlock(world, Vec3(0.1, 0.08, 0.08), Vec3(0, 0.04, 0), 0.45);
+    load = addBlock(world, Vec3(0.3, 0.3, 0.3), Vec3(0, 0.231, 0), 100);
+    join(world, arm, hand, Vec3(-0.05, 0.04, 0));
+  }
+  static Settings heavy() {
+    Settings settings = touching();
+    settings.gravity = Vec3(0, -9.81, 0);
+    return settings;
+  }
+  double height() const { return world.bodies().pose[hand].x.y(); }
+};
+
+TEST(JointedContact, AHandUnderAHeavyBlockComesToRestOnTheFloor) {
+  LoadedHand held;
+  for (int k = 0; k < 240; ++k) ASSERT_FALSE(held.world.step().notFinite);
+  EXPECT_LT(fastest(held.world), 1e-3);
+  EXPECT_LT(held.world.largestOverlap(), 2e-4);
+}
+
+TEST(JointedContact, AHandThatAHeavyBlockLeavesDoesNotHover) {
+  LoadedHand held;
+  for (int k = 0; k < 240; ++k) held.world.step();
+  const double loaded = held.height();
+  held.world.setVelocity(held.load, {Vec3(3, 3, 0), Vec3::Zero()});
+  double most = 0;
+  for (int k = 0; k < 60; ++k) {
+    held.world.step();
+    most = std::max(most, held.height() - loaded);
+  }
+  EXPECT_LT(most, 5e-3);
+  EXPECT_NEAR(held.height(), loaded, 5e-4);
+}
+
 Settings slow() {
   Settings settings;
   settings.maxCorrectionSpeed = 2;
