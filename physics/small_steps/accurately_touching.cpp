@@ -2,7 +2,8 @@
 // touches: by the substeps of the default, whose error has all powers of h while nothing comes into
 // touch or leaves it, and the steps are divided about where something does. Where bodies err or
 // contacts change in many places at once no step resolves it: an island goes on by the default
-// then, and the estimate tells.
+// then, and the estimate tells. What it has been off by since is not brought back either, so that
+// what its steps may err by grows with that.
 //
 // Each has steps and moments of its own. Contacts know nothing of the length of a substep, so that
 // islands with as many to make make them in the same lanes; none feels the others.
@@ -28,6 +29,9 @@ constexpr double kTakesAway = 0.5;
 // Of the way of a step: where rows differ by less, what they lead to is nearer than the last of
 // them. What they do not agree on at all would be thrown about by it.
 constexpr double kAgreed = 0.1;
+// Of its size: what is off by as much, a picture shows elsewhere. It goes on by the default's
+// steps.
+constexpr double kLost = 0.1;
 
 bool slides(const KeptContact& c, double along, double normal) {
   constexpr double kOnCone = 1 - 1e-5;  // but for single precision
@@ -101,8 +105,8 @@ void SmallSteps::Impl::noteLoads(const Model& w, const Batch& batch) {
 // in all of them. What has come to rest carries it otherwise than it did on its way there.
 void SmallSteps::Impl::holdLoads(const Model& w, const Trial& trial) {
   if (trial.changes > 0) return;
-  const double h = trial.whole / trial.steps;
-  const bool rests = wayAhead(w, trial) <= allowedError(w);
+  const double h = w.settings.dt / trial.steps;
+  const bool rests = wayAhead(w, trial) <= trial.allowed;
   for (const int contact : batches[trial.batch].contacts) {
     KeptContact& c = contacts[contact];
     if (c.isHeld() && !rests) continue;
@@ -112,9 +116,20 @@ void SmallSteps::Impl::holdLoads(const Model& w, const Trial& trial) {
       difference = std::max(difference, std::abs(load[k] - coarser[k]));
     }
     const double gives = h * h * (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
-    if (gives * difference > allowedError(w) * trial.extent) continue;
+    if (gives * difference > trial.allowed * trial.extent) continue;
     std::copy_n(load.begin(), c.count, c.held.begin());
   }
+}
+
+// The shortest step, and rows differ.
+bool SmallSteps::Impl::jumps(const Model& w, const Trial& trial) const {
+  return trial.error > trial.allowed && !(trial.whole > kLeastPart * w.settings.dt);
+}
+
+// Of a jump the impulse is known, and no force that lasts: it is kept as if it had been given over
+// a whole step. As a force of what it took, a longer substep would throw the bodies by it.
+void SmallSteps::Impl::spreadJump(const Model& w, KeptContact& c) const {
+  c.step = std::sqrt(c.step * w.settings.dt);
 }
 
 // Where `reached` is, something is off the ground that the last row ends on.
@@ -174,11 +189,24 @@ void SmallSteps::Impl::close(Model& w, Deformable& mesh, double h) {
   }
 }
 
+// What steps that were kept have erred by beyond what they may since the bodies rested, all in all:
+// of an island, as much as of the one that is off the most.
+double SmallSteps::Impl::missedBy(const Batch& batch) const {
+  double most = 0;
+  for (const BodyId i : batch.bodies) most = std::max(most, missed[i]);
+  return most;
+}
+
+void SmallSteps::Impl::miss(const Batch& batch, double error) {
+  for (const BodyId i : batch.bodies) missed[i] = error;
+}
+
 // At the start of its step.
 void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
   trial.left = w.settings.dt;
   trial.extent = sizeOf(w.bodies, batch);
+  trial.allowed = allowedError(w);
   trial.flights = 0;
   trial.hits = trial.isLaidOut = trial.needsMore = false;
   trial.told = {};
@@ -240,7 +268,7 @@ bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
   if (trial.needsMore || trial.hits) return false;
   const Batch& batch = batches[trial.batch];
   const bool isExact = oneRowErrs[batch.bodies.front()] <= kKnown;
-  if (!isExact && !(wayOf(w, trial) <= allowedError(w))) return false;
+  if (!isExact && !(wayOf(w, trial) <= trial.allowed)) return false;
   const auto stands = [&](int contact) {
     return !contacts[contact].isLoaded() || contacts[contact].isHeld();
   };
@@ -278,8 +306,11 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   }
   if (!(trial.left > 0)) return false;
   keepStart(w, batch);
+  // What is a hundredth of what it is off already changes nothing.
+  const double off = missedBy(batch);
+  trial.allowed = std::max(allowedError(w), kShareOfFrame * off);
   trial.isOneRow = mayTakeOneRow(w, trial);
-  trial.isRough = false;
+  trial.isRough = !trial.isOneRow && off > std::max(*w.settings.accuracy, kLost);
   const double next = trial.hits ? 0 : trial.isOneRow ? trial.left : choice.next(trial.left, dt);
   const double wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
   trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
@@ -295,7 +326,7 @@ bool SmallSteps::Impl::isAlike(const Model& w, const Trial& a, const Trial& b) c
   const Batch &of = batches[a.batch], &other = batches[b.batch];
   const bool isFree = !of.isMixed() && !other.isMixed() && !(w.bodies.mostRestitution > 0);
   return isFree && a.most == b.most && a.columns == b.columns && a.isLost == b.isLost &&
-         of.sweeps == other.sweeps;
+         a.isRough == b.isRough && of.sweeps == other.sweeps;
 }
 
 // The lanes of a group: those of its only island, or of all of them.
@@ -356,7 +387,7 @@ void SmallSteps::Impl::addRow(const Model& w, Trial& trial) {
   trial.coarser = trial.error;
   trial.places = 0;
   if (trial.tableau.rows() == 1) return;
-  trial.error = trial.tableau.difference(trial.extent, w.settings.dt, trial.levers, allowedError(w),
+  trial.error = trial.tableau.difference(trial.extent, w.settings.dt, trial.levers, trial.allowed,
                                          &trial.places);
 }
 
@@ -367,8 +398,9 @@ void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepRep
   for (Trial* trial : group) trial->tableau.clear(batches[trial->batch].bodies.size());
   for (int first = 1, last = columns; !group.empty(); first = ++last) {
     Batch& batch = lanesFor(w, group);
-    batch.closes = columns > 1 && !batch.isMixed();  // so that rows are told from each other
     batch.isLost = group[0]->isLost;
+    // So that rows are told from each other.
+    batch.closes = columns > 1 && !batch.isMixed() && !group[0]->isRough;
     closings.resize(group.size());
     for (int row = first; row <= last; ++row) {
       addRow(w, group, batch, (most * row + columns - 1) / columns, report);
@@ -383,7 +415,7 @@ void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepRep
 bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
   StepChoice& choice = choices[batch.bodies.front()];
-  const double dt = w.settings.dt, allowed = allowedError(w);
+  const double dt = w.settings.dt, allowed = trial.allowed;
   const bool isLost = trial.changes > kMostPlaces;
   const bool isKnown = trial.columns > 1 || trial.isOneRow;
   const bool isSmall = isKnown && trial.error <= allowed;
@@ -398,6 +430,7 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
     }
     return false;
   }
+  if (!isSmall) miss(batch, missedBy(batch) + trial.error);
   if (trial.isRough) {
     choice.takeAsItIs();
     if (trial.error <= kAgreed * wayOf(w, trial)) takeBest(w, trial);
@@ -405,6 +438,7 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
     choice.giveUp(isLost ? trial.error : 0);
   } else if (trial.isOneRow) {
     choice.rest();
+    if (wayOf(w, trial) <= allowedError(w)) miss(batch, 0);
   } else if (!trial.hits) {  // a jump is no smoother in shorter substeps
     takeBest(w, trial);
     choice.accept(trial.whole, trial.error, trial.coarser, {allowed}, dt);
@@ -427,14 +461,16 @@ bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
     trial.oneRowErrs = errorOfOneRow(w, trial);
     const bool isExact = trial.oneRowErrs <= kKnown;
     trial.error = isExact ? std::min(trial.oneRowErrs, way) : way;
-    trial.isOneRow = trial.error <= allowedError(w);
+    trial.isOneRow = trial.error <= trial.allowed;
     trial.needsMore = !trial.isOneRow;
   } else if (trial.isLost) {
     trial.error = choice.lost();
   } else if (trial.changes > 0) {
     trial.error =
         std::max(trial.error, trial.tableau.gain(trial.extent, w.settings.dt, trial.levers));
-  } else if (trial.error > allowedError(w)) {
+  } else if (trial.isRough) {
+    trial.isRough = trial.error > trial.allowed;
+  } else if (trial.error > trial.allowed) {
     const bool isMesh = !batches[trial.batch].deformables.empty();
     const bool takesAway = trial.tableau.rows() == 2 || trial.error < kTakesAway * trial.coarser;
     trial.isRough = isMesh && (choice.isRough() || !takesAway);
@@ -459,7 +495,9 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
         asks || (ends.back() == Ended::kAccepted && (!(trial->left > 0) || isOpen(w.bodies, own)));
   }
   forEachPart(batch, [&](std::size_t i, int l, int part) {
-    if (ends[part] == Ended::kAccepted) takeOver(w.bodies, batch.blocks[i], l);
+    if (ends[part] != Ended::kAccepted) return;
+    takeOver(w.bodies, batch.blocks[i], l);
+    if (jumps(w, *group[part])) spreadJump(w, contacts[batch.blocks[i].contact[l]]);
   });
   for (std::size_t part = 0; part < group.size(); ++part) {
     if (ends[part] != Ended::kAccepted) continue;
@@ -512,7 +550,7 @@ void SmallSteps::Impl::advanceTouching(Model& w, StepReport& report) {
 void SmallSteps::Impl::finish(const Model& w, const Trial& trial, AccuracyReport& report) {
   const Batch& batch = batches[trial.batch];
   StepListening::tell({batch.bodies.front(), static_cast<int>(batch.bodies.size()), w.settings.dt,
-                       trial.extent, allowedError(w), trial.told});
+                       trial.extent, trial.allowed, trial.told});
   add(trial.told, report);
   if (trial.told.accepted == 0) rest(batch);
 }

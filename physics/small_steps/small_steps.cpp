@@ -67,6 +67,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   meanSpins.resize(bodies, Vec3::Zero());
   choices.resize(bodies, StepChoice(1, 2, kMostTouchingColumns, StepChoice::Rows::kInTurn));
   oneRowErrs.resize(bodies, std::numeric_limits<double>::infinity());
+  missed.resize(bodies);
   accelerated.resize(bodies);
   load.resize(bodies);
   sag.resize(bodies);

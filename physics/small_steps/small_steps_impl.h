@@ -149,9 +149,9 @@ struct SmallSteps::Trial {
   int steps = 0;               // substeps of the row that was made last
   bool isLaidOut = false;      // in a batch of its own: lanes are where that has them
   Tableau tableau;
-  std::vector<double> levers;                 // by body
-  double extent = 0, error = 0, coarser = 0;  // coarser: by a column less
-  int places = 0, changes = 0;                // bodies that err by too much; contacts that changed
+  std::vector<double> levers;                              // by body
+  double allowed = 0, extent = 0, error = 0, coarser = 0;  // coarser: by a column less
+  int places = 0, changes = 0;  // bodies that err by too much; contacts that changed
   int flights = 0;
   bool isOneRow = false, needsMore = false;  // it is tried by one row; that did not do
   double oneRowErrs = 0;                     // by what is known of it; infinite: nothing is
@@ -198,6 +198,7 @@ struct SmallSteps::Impl {
   static constexpr int kMostTouchingColumns = 4;  // of 2 at least: one has no estimate
   std::vector<StepChoice> choices;                // by first body of an island that touches
   std::vector<double> oneRowErrs;     // the same: of its size, over a step; infinite: not known
+  std::vector<double> missed;         // by body: of the size of its islands
   std::vector<Velocity> accelerated;  // by body of one: in its last step [m/s^2, rad/s^2]
   std::vector<Trial> trials;
   Batch together;  // of some of these
@@ -303,9 +304,13 @@ struct SmallSteps::Impl {
   bool giveExactly(const Model& w, Batch& batch);
   static void giveLane(Batch& batch, const ContactBlock& block, const ContactLoads& told, int lane);
   double sizeOf(const Bodies& b, const Batch& batch) const;
+  double missedBy(const Batch& batch) const;
+  void miss(const Batch& batch, double error);
   void begin(const Model& w, Trial& trial);
   void noteLoads(const Model& w, const Batch& batch);
   void holdLoads(const Model& w, const Trial& trial);
+  bool jumps(const Model& w, const Trial& trial) const;
+  void spreadJump(const Model& w, KeptContact& c) const;
   bool opensAtEnd(const Bodies& b, const Batch& batch);
   void takeBest(Model& w, const Trial& trial);
   void goBack(Bodies& b, const Batch& batch);

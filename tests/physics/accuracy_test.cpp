@@ -612,6 +612,38 @@ TEST(Accuracy, OfAHeapIsNotChased) {
   EXPECT_LT(sum.rejected, sum.accepted / 5) << sum.accepted;
 }
 
+// Blocks fall on each other and fall apart. What they are off by, once they hit, is not brought
+// back by shorter steps; and no step is thrown by what the one before it carried in a hit.
+TEST(Accuracy, OfBlocksThatScatterIsNotChased) {
+  struct Told {
+    std::int64_t iterations = 0;
+    double fastest = 0;
+  };
+  const auto scatter = [](std::optional<double> accuracy) {
+    World world = onFloor(accuracy, 0.5, 0, std::nullopt);
+    for (int i = 0; i < 48; ++i) {
+      const Vec3 place(i % 4, i / 16, i / 4 % 4);
+      const BodyId id = testing::addBody(
+          world, Box{Vec3(0.5, 0.25, 0.3)},
+          0.4 * place + Vec3(0.07 * std::sin(i), 0.6 + 0.2 * place.y(), 0.07 * std::cos(2 * i)));
+      world.setVelocity(id, {Vec3(std::sin(3 * i), -3, std::cos(i)), Vec3(i % 3, 2, -(i % 5))});
+    }
+    Told told;
+    for (int k = 0; k < 150; ++k) {
+      told.iterations += world.step().iterations;
+      for (const Velocity& v : world.bodies().velocity)
+        told.fastest = std::max(told.fastest, v.v.norm());
+    }
+    return told;
+  };
+  const Told byDefault = scatter(std::nullopt);
+  for (const double accuracy : {1e-2, 1e-3}) {
+    const Told asked = scatter(accuracy);
+    EXPECT_LT(asked.iterations, 3 * byDefault.iterations) << accuracy;
+    EXPECT_LT(asked.fastest, 1.5 * byDefault.fastest) << accuracy;
+  }
+}
+
 // Islands that make as many substeps make them side by side, each at its own moments, and sweeps go
 // on until the last of them is closed: none knows of the others.
 TEST(Accuracy, OfOneIslandDoesNotMoveAByteOfAnother) {
