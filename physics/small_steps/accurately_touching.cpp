@@ -121,9 +121,10 @@ void SmallSteps::Impl::holdLoads(const Model& w, const Trial& trial) {
   }
 }
 
-// The shortest step, and rows differ.
+// Rows or contacts differ in a step that was cut short.
 bool SmallSteps::Impl::jumps(const Model& w, const Trial& trial) const {
-  return trial.error > trial.allowed && !(trial.whole > kLeastPart * w.settings.dt);
+  const bool differs = trial.error > trial.allowed || trial.changes > 0;
+  return differs && trial.whole < w.settings.dt;
 }
 
 // Of a jump the impulse is known, and no force that lasts: it is kept as if it had been given over
@@ -311,7 +312,8 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   trial.allowed = std::max(allowedError(w), kShareOfFrame * off);
   trial.isOneRow = mayTakeOneRow(w, trial);
   trial.isRough = !trial.isOneRow && off > std::max(*w.settings.accuracy, kLost);
-  const double next = trial.hits ? 0 : trial.isOneRow ? trial.left : choice.next(trial.left, dt);
+  const bool isWhole = trial.isOneRow || trial.isRough;
+  const double next = trial.hits ? 0 : isWhole ? trial.left : choice.next(trial.left, dt);
   const double wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
   trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
   trial.isLost = !trial.isOneRow && choice.lost() > 0;
@@ -430,7 +432,7 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
     }
     return false;
   }
-  if (!isSmall) miss(batch, missedBy(batch) + trial.error);
+  if (!isSmall && batch.deformables.empty()) miss(batch, missedBy(batch) + trial.error);
   if (trial.isRough) {
     choice.takeAsItIs();
     if (trial.error <= kAgreed * wayOf(w, trial)) takeBest(w, trial);
