@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "physics/base/rotation.h"
 #include "physics/model/factors.h"
@@ -127,10 +128,14 @@ bool SmallSteps::Impl::jumps(const Model& w, const Trial& trial) const {
   return differs && trial.whole < w.settings.dt;
 }
 
-// Of a jump the impulse is known, and no force that lasts: it is kept as if it had been given over
-// a whole step. As a force of what it took, a longer substep would throw the bodies by it.
+// Of a contact that jumps, so that it carries more than twice what it did, the impulse is known,
+// and no force that lasts: it is kept as if it had been given over a whole step. As a force of what
+// it took, a longer substep would throw the bodies by it.
 void SmallSteps::Impl::spreadJump(const Model& w, KeptContact& c) const {
-  c.step = std::sqrt(c.step * w.settings.dt);
+  const auto sum = [&](const auto& loads) {
+    return std::accumulate(loads.begin(), loads.begin() + c.count, 0.0);
+  };
+  if (sum(c.lambda) > 2 * sum(c.before)) c.step = std::sqrt(c.step * w.settings.dt);
 }
 
 // Where `reached` is, something is off the ground that the last row ends on.
