@@ -89,7 +89,7 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactB
   const double small = smallSag(w, c, size);
   for (int k = 0; k < c.count; ++k) {
     const double inverse = block.point[k].inverse[l];
-    const double lambda = std::min(c.lambda[k], c.before[k]);
+    const double lambda = c.stayed(k);
     if (!(inverse > 0)) continue;
     const double held = std::min<double>(lambda, block.held[k][l]);
     const double share = lambda * soft / inverse / size;

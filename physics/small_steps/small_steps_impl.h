@@ -156,7 +156,7 @@ struct SmallSteps::Trial {
   bool isOneRow = false, needsMore = false;  // it is tried by one row; that did not do
   double oneRowErrs = 0;                     // by what is known of it; infinite: nothing is
   bool isLost = false;   // no step resolved the last one, and the default's is all of this
-  bool isRough = false;  // what its rows err by has no powers of h
+  bool isRough = false;  // its rows err by no powers of h, or it is lost: taken as it is
   bool hits = false;     // an impact comes next: by itself, and what flies on then flies exactly
   AccuracyReport told;
 };
@@ -389,7 +389,6 @@ struct SmallSteps::Impl {
   bool findRise(Model& w, Batch& batch);
   void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares);
   void forgetLoads(Model& w, Batch& batch);
-  void holdCarried(const Model& w, const Batch& batch, double h);
   void boundWork(Model& w, Batch& batch, const JointStage& stage);
   void solvePositions(Model& w, Batch& batch, double h);
   void sweepDeformables(Model& w, Batch& batch, double h);
@@ -403,6 +402,7 @@ struct SmallSteps::Impl {
   void renew(const Model& w, const Batch& batch, ContactBlock& block) const;
   void renewTurned(Model& w, Batch& batch);
   void takeOver(Model& w, Batch& batch);
+  void holdCarried(const Model& w, const Batch& batch, double h);
   void takeOver(const Bodies& b, const ContactBlock& block, int l);
   double sagOf(BodyId root) const;
   void weighMotion(const Model& w, const Batch& batch);

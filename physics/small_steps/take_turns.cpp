@@ -137,39 +137,6 @@ void SmallSteps::Impl::forgetLoads(Model& w, Batch& batch) {
   fromLanes(w, batch);
 }
 
-// Substeps do not follow what springs of jointed bodies are drawn by: a hand that carries a heap
-// would stand in the floor by F h^2 / m of its own mass. What such a contact carries from step to
-// step beyond the weight of the lighter body becomes what it gives way about, so that it comes to
-// where the bodies just touch: the method of multipliers, by a share that is small beside the rate
-// of the springs. What has carried its own weight since the world began goes on. Down at once: what
-// carries less than it is held by would stand off the surface.
-void SmallSteps::Impl::holdCarried(const Model& w, const Batch& batch, double h) {
-  constexpr double kShare = 1.0 / 32, kSame = 0.99;
-  if (batch.joined == Joined::kNot) return;
-  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
-  for (const int contact : batch.contacts) {
-    KeptContact& c = contacts[contact];
-    if (!isJointed(c)) continue;
-    std::array<double, Manifold::kMaxPoints> stayed{};
-    double sum = 0, held = 0;
-    for (int k = 0; k < c.count; ++k) {
-      stayed[k] = std::min(c.lambda[k], c.before[k]) / (h * h);
-      sum += stayed[k];
-      held += c.held[k];
-    }
-    const double weight = g / (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
-    const double beyond = sum > weight ? 1 - weight / sum : 0;
-    for (int k = 0; k < c.count; ++k) {
-      const double more = beyond * stayed[k] - c.held[k];
-      if (more > 0) {
-        c.held[k] += kShare * more;
-      } else if (sum < kSame * held) {
-        c.held[k] += more;
-      }
-    }
-  }
-}
-
 // Contacts take back by a body's own mass what they gave too much, but joints pass on to the others
 // most of what it was given: what a hit leaves behind would throw figures. Joints of the other
 // islands stay as they are.

@@ -2,6 +2,7 @@
 // it carried.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -23,13 +24,14 @@ struct KeptContact {
   // Impulses times the step, on a: along the normal, at the last substep and a step earlier; of
   // friction at the centre (world), and of its twist about the normal.
   std::array<double, Manifold::kMaxPoints> lambda{}, before{};
-  // Force [N] about which it gives way: that the points carried where the world began, that two rows
-  // of an accuracy's step agreed on, or that jointed bodies have come to rest on.
+  // Force [N] about which it gives way: that the points carried where the world began, that two
+  // rows of an accuracy's step agreed on, or that jointed bodies have come to rest on.
   std::array<double, Manifold::kMaxPoints> held{};
   Vec3 tangential = Vec3::Zero();
   double twist = 0;
   std::array<ContactPoint, Manifold::kMaxPoints> points;
 
+  double stayed(int point) const { return std::min(lambda[point], before[point]); }  // in both
   bool isLoaded() const { return lambda != std::array<double, Manifold::kMaxPoints>{}; }
   bool isHeld() const { return held != std::array<double, Manifold::kMaxPoints>{}; }
 };
