@@ -29,11 +29,11 @@ void SmallSteps::Impl::fromLane(Batch& batch, int slot) {
 // Of a body whose joints respond: what contacts gave it, as if it had none. They are to follow.
 void SmallSteps::Impl::takeGiven(Batch& batch, int slot) {
   const BodyId i = batch.slots[slot];
-  float(&given)[6] = batch.responders[slot].given;
-  const Vec3 turn(given[3], given[4], given[5]);
-  moved[i].u += masses[i].inverse * Vec3(given[0], given[1], given[2]);
-  moved[i].theta += masses[i].inertia * torqueOf(batch.masses[slot], turn);
-  std::fill(std::begin(given), std::end(given), 0.f);
+  const Responder& from = batch.responders[slot];
+  const JointResponse::Six given =
+      articulations[from.articulation].response().takeGiven(from.place);
+  moved[i].u += masses[i].inverse * given.head<3>();
+  moved[i].theta += masses[i].inertia * torqueOf(batch.masses[slot], given.tail<3>());
 }
 
 void SmallSteps::Impl::toLanes(Model& w, Batch& batch) {
@@ -46,6 +46,8 @@ void SmallSteps::Impl::fromLanes(Model& w, Batch& batch) {
   w.workers.forEachChunk(static_cast<int>(batch.slots.size()), kLeastBodies, [&](int from, int to) {
     for (int s = std::max(from, 1); s < to; ++s) fromLane(batch, s);
   });
+  if (batch.responders.empty()) return;
+  for (const int k : batch.articulations) articulations[k].response().forgetPulls();
 }
 
 }  // namespace physics

@@ -19,9 +19,7 @@ void SmallSteps::Impl::takeResponses(Batch& batch) {
   if (std::none_of(batch.articulations.begin(), batch.articulations.end(), responds)) return;
   batch.responders.resize(batch.slots.size());
   for (const int k : batch.articulations) {
-    JointResponse& response = articulations[k].response();
-    response.at.assign(articulations[k].allBodies().size(), -1);
-    response.slots.clear();
+    articulations[k].response().clear(articulations[k].topology());
   }
   for (const int c : batch.contacts) {
     for (const BodyId i : {contacts[c].a, contacts[c].b}) {
@@ -29,25 +27,18 @@ void SmallSteps::Impl::takeResponses(Batch& batch) {
       if (k < 0 || !responding[k]) continue;
       JointResponse& response = articulations[k].response();
       const auto all = articulations[k].allBodies();
-      const auto body = std::lower_bound(all.begin(), all.end(), i) - all.begin();
-      if (response.at[body] >= 0) continue;
-      response.at[body] = static_cast<int>(response.size());
-      batch.responders[slotOf[i]] = {k, response.at[body]};
-      response.slots.push_back(slotOf[i]);
+      const int body = static_cast<int>(std::lower_bound(all.begin(), all.end(), i) - all.begin());
+      if (response.placeOf(body) >= 0) continue;
+      batch.responders[slotOf[i]] = {k,
+                                     response.touch(body, slotOf[i], articulations[k].topology())};
     }
   }
-  for (const int k : batch.articulations) articulations[k].response().makeRoom();
 }
 
 namespace {
 
-using Six = Eigen::Matrix<double, 6, 1>;
-using SixBySix = Eigen::Matrix<double, 6, 6>;
-
-SixBySix blockOf(const JointResponse& r, int to, int from) {
-  using Columns = Eigen::Matrix<float, JointResponse::kColumn, 6>;
-  return Eigen::Map<const Columns>(r.block(to, from)).topRows<6>().cast<double>();
-}
+using Six = JointResponse::Six;
+using SixBySix = JointResponse::SixBySix;
 
 Six rowOf(const float (&d)[3][8], const float (&w)[3][8], int l) {
   Six j;
@@ -116,7 +107,7 @@ void SmallSteps::Impl::prepareResponses(Batch& batch, ContactBlock& m, int l) co
   const auto own = [&](int slot, SixBySix& response) {
     const Responder& r = batch.responders[slot];
     if (r.articulation >= 0) {
-      response = blockOf(articulations[r.articulation].response(), r.place, r.place);
+      response = articulations[r.articulation].response().between(r.place, r.place);
     } else if (slot > 0) {
       response.diagonal() << Vec3::Constant(batch.masses[slot].inverse), Vec3::Ones();
     }
@@ -125,7 +116,7 @@ void SmallSteps::Impl::prepareResponses(Batch& batch, ContactBlock& m, int l) co
   own(m.bodyB[l], rows.ofB);
   const Responder &a = batch.responders[m.bodyA[l]], &b = batch.responders[m.bodyB[l]];
   if (a.articulation >= 0 && a.articulation == b.articulation) {
-    rows.across = blockOf(articulations[a.articulation].response(), a.place, b.place);
+    rows.across = articulations[a.articulation].response().between(a.place, b.place);
   }
   takeRows(rows, l, m);
 }
@@ -135,8 +126,8 @@ void SmallSteps::Impl::respond(Batch& batch) {
   if (batch.responders.empty()) return;
   for (const int k : batch.articulations) {
     JointResponse& response = articulations[k].response();
-    for (std::size_t i = 0; i < response.size(); ++i) {
-      response.masses[i] = batch.masses[response.slots[i]];
+    for (int i = 0; i < static_cast<int>(response.size()); ++i) {
+      response.setMass(i, batch.masses[response.slotAt(i)]);
     }
   }
   batch.joints.respond();
@@ -150,23 +141,29 @@ void SmallSteps::Impl::respond(Batch& batch) {
   }
 }
 
-void SmallSteps::Impl::spread(Batch& batch, int slot, const float (&given)[6]) const {
-  Responder& from = batch.responders[slot];
-  const JointResponse& response = articulations[from.articulation].response();
-  for (int c = 0; c < 6; ++c) from.given[c] += given[c];
-  constexpr int kColumn = JointResponse::kColumn;
-  const float* column = response.block(0, from.place);
-  for (const int slot : response.slots) {
-    float sum[kColumn] = {};
-    for (int c = 0; c < 6; ++c, column += kColumn) {
-      for (int k = 0; k < kColumn; ++k) sum[k] += column[k] * given[c];
-    }
-    LaneMotion& motion = batch.motions[slot];
-    for (int k = 0; k < 3; ++k) {
-      motion.u[k] += sum[k];
-      motion.turn[k] += sum[3 + k];
-    }
+// What the body of a slot moves by, where contacts have given others of its articulation something.
+void SmallSteps::Impl::lookAtResponse(Batch& batch, int slot) const {
+  const Responder& from = batch.responders[slot];
+  const Six by = articulations[from.articulation].response().movedBy(from.place);
+  const LaneStart& start = batch.before[slot];
+  LaneMotion& motion = batch.motions[slot];
+  for (int k = 0; k < 3; ++k) {
+    motion.u[k] = static_cast<float>(start.u[k] + by[k]);
+    motion.turn[k] = static_cast<float>(start.turn[k] + by[3 + k]);
   }
+}
+
+// What a sweep gave it beside that, as if it had no joints.
+void SmallSteps::Impl::respondTo(const Batch& batch, int slot, const LaneStart& before) {
+  const Responder& to = batch.responders[slot];
+  const LaneMotion& motion = batch.motions[slot];
+  const double mass = 1.0 / batch.masses[slot].inverse;
+  Six given;
+  for (int k = 0; k < 3; ++k) {
+    given[k] = mass * (double(motion.u[k]) - before.u[k]);
+    given[3 + k] = double(motion.turn[k]) - before.turn[k];
+  }
+  articulations[to.articulation].response().give(to.place, given);
 }
 
 }  // namespace physics

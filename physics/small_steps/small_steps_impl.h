@@ -46,11 +46,9 @@ struct BlockStage {
   bool responds = false;
 };
 
-// A body of an articulation that responds, and what contacts gave it in a stage, in the units of
-// its lane.
+// A body of an articulation that responds.
 struct Responder {
   int articulation = -1, place = -1;  // and its place in the response
-  float given[6] = {};
 };
 
 // What turns a body. Given: nothing, nor moves it. None: it is a point. Round: in every direction
@@ -339,10 +337,11 @@ struct SmallSteps::Impl {
   void takeResponses(Batch& batch);
   void respond(Batch& batch);
   void prepareResponses(Batch& batch, ContactBlock& block, int lane) const;
-  void spread(Batch& batch, int slot, const float (&given)[6]) const;
+  void lookAtResponse(Batch& batch, int slot) const;
+  void respondTo(const Batch& batch, int slot, const LaneStart& before);
   void weighJoints(const Model& w, const Batch& batch, double h);
   template <class F>
-  void sweepResponding(Batch& batch, ContactBlock& block, F&& kernel) const;
+  void sweepResponding(Batch& batch, ContactBlock& block, F&& kernel);
   template <class F>
   static void forEachGroup(Model& w, const Batch& batch, const BlockStage& stage, F&& f);
   template <class F>
@@ -468,36 +467,23 @@ struct SmallSteps::Impl {
 // What contacts give to bodies of articulations is taken from these alone, and goes to all of an
 // articulation.
 template <class F>
-void SmallSteps::Impl::sweepResponding(Batch& batch, ContactBlock& block, F&& kernel) const {
+void SmallSteps::Impl::sweepResponding(Batch& batch, ContactBlock& block, F&& kernel) {
   constexpr int kLanes = ContactBlock::kLanes;
-  struct Lane {
-    int slot = 0;
-    float u[6] = {};
-  };
-  Lane before[2 * kLanes];
-  for (int l = 0; l < 2 * kLanes; ++l) {
-    Lane& lane = before[l];
-    lane.slot = l < kLanes ? block.bodyA[l] : block.bodyB[l - kLanes];
-    const LaneMotion& motion = batch.motions[lane.slot];
-    std::copy(motion.u, motion.u + 3, lane.u);
-    std::copy(motion.turn, motion.turn + 3, lane.u + 3);
-  }
-  kernel(&block, 1);
-  for (Lane& lane : before) {
-    if (batch.responders[lane.slot].articulation < 0) continue;
-    LaneMotion& motion = batch.motions[lane.slot];
-    const float mass = 1 / batch.masses[lane.slot].inverse;
-    for (int k = 0; k < 3; ++k) {
-      const float u = motion.u[k] - lane.u[k], turn = motion.turn[k] - lane.u[3 + k];
-      motion.u[k] = lane.u[k];
-      motion.turn[k] = lane.u[3 + k];
-      lane.u[k] = mass * u;
-      lane.u[3 + k] = turn;
+  LaneStart before[2 * kLanes];
+  const auto forEachResponder = [&](auto&& f) {
+    for (int l = 0; l < 2 * kLanes; ++l) {
+      const int slot = l < kLanes ? block.bodyA[l] : block.bodyB[l - kLanes];
+      if (batch.responders[slot].articulation >= 0) f(slot, before[l]);
     }
-  }
-  for (const Lane& lane : before) {
-    if (batch.responders[lane.slot].articulation >= 0) spread(batch, lane.slot, lane.u);
-  }
+  };
+  forEachResponder([&](int slot, LaneStart& start) {
+    lookAtResponse(batch, slot);
+    const LaneMotion& motion = batch.motions[slot];
+    std::copy(std::begin(motion.u), std::end(motion.u), start.u);
+    std::copy(std::begin(motion.turn), std::end(motion.turn), start.turn);
+  });
+  kernel(&block, 1);
+  forEachResponder([&](int slot, const LaneStart& start) { respondTo(batch, slot, start); });
 }
 
 // f(from, to) of the blocks of groups, dealt to threads where that pays.

@@ -10,6 +10,7 @@
 // step side by side, one to a lane; what is done in one knows nothing of the others.
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -29,27 +30,56 @@ struct Displacement {
 // closed.
 inline constexpr double kClosed = 1e-7, kNearlyClosed = 1e-4;
 
-// What impulses on some bodies of an articulation move these by while its joints hold,
-//   R = M^-1 - M^-1 J^T A^-1 J M^-1,
-// by pairs of them, in the units of their lanes: the articulated mass that contacts see. Limits are
-// left out: what holds one way only would pull in R, and what contacts give beyond it is energy.
-struct JointResponse {
-  static constexpr int kColumn = 8;  // six, padded
-  std::vector<int> at;               // by body of the articulation: its place here, -1: none
-  std::vector<int> slots;            // by place
-  std::vector<LaneMass> masses;      // by place
-  std::vector<float> entries;
-  std::size_t size() const { return slots.size(); }
-  const float* block(std::size_t to, std::size_t from) const {
-    return entries.data() + (from * size() + to) * 6 * kColumn;
+// What impulses on some bodies of an articulation move these by while its joints hold, in the units
+// of their lanes: the articulated mass that contacts see. With A = L D L^T it is
+//   R = M^-1 - M^-1 J^T A^-1 J M^-1,   between bodies b, c:   delta_bc M_b^-1 - Y_b^T D^-1 Y_c
+//   Y_b = L^-1 J M_b^-1
+// of which only rows on the way from the joints of b to the last ones eliminated are not zero: a
+// handful in chains and loops. No R is built: of what was given the pulls D^-1 Y_b p_b are kept,
+// and each body looks at those of its own rows. Limits are left out: what holds one way only would
+// pull in R, and what contacts give beyond it is energy.
+class JointResponse {
+ public:
+  using Six = Eigen::Matrix<double, 6, 1>;  // along, and turns
+  using SixBySix = Eigen::Matrix<double, 6, 6>;
+
+  void clear(const JointTopology& topology);  // nothing is touched
+  // The place of a body, by its number in the articulation: it is touched from now on.
+  int touch(int body, int slot, const JointTopology& topology);
+  std::size_t size() const { return slots_.size(); }
+  int placeOf(std::size_t body) const { return at_[body]; }  // -1: nothing touches it
+  int slotAt(int place) const { return slots_[place]; }
+  void setMass(int place, const LaneMass& mass) { touched_[place].mass = mass; }
+
+  void give(int place, const Six& impulse);
+  Six takeGiven(int place);                      // none is left
+  void forgetPulls();                            // once all that was given is taken
+  Six movedBy(int place) const;                  // by what was given, to all of them
+  SixBySix between(int place, int other) const;  // R
+
+ private:
+  template <int W>
+  friend class JointPack;
+  using Row = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
+  struct Entry {
+    int row;       // of the articulation, in the order of elimination
+    Row of, over;  // of Y, and of D^-1 Y
+  };
+  struct Body {
+    LaneMass mass;
+    SixBySix alone = SixBySix::Zero();  // M^-1
+    Six given = Six::Zero();
+  };
+  std::span<const Entry> entriesOf(int place) const {
+    return {entries_.data() + starts_[place], entries_.data() + starts_[place + 1]};
   }
-  void makeRoom() {
-    masses.resize(size());
-    entries.resize(size() * size() * 6 * kColumn);
-  }
-  float* block(std::size_t to, std::size_t from) {
-    return entries.data() + (from * size() + to) * 6 * kColumn;
-  }
+  std::vector<int> at_;         // by body of the articulation
+  std::vector<int> slots_;      // by place
+  std::vector<Body> touched_;   // by place
+  std::vector<int> starts_;     // by place, and the end
+  std::vector<Entry> entries_;  // by place, in the order of elimination
+  std::vector<Vec3> pulls_;     // by row
+  std::vector<char> isMet_;     // scratch, by row
 };
 
 class Archive;
@@ -68,6 +98,7 @@ class Articulation {
   const JointResponse& response() const { return response_; }
   bool isOpened() const { return isOpened_; }  // a substep since `take` has not closed its joints
   void setOpened(bool opened) { isOpened_ = opened; }
+  const JointTopology& topology() const { return *topology_; }
   bool hasLoop() const;  // of bodies, all that do not move being one
   void forget();         // what it pulled with in the last substep
   void archive(Archive& a);
@@ -172,9 +203,9 @@ class JointPack {
   bool givesWay(int row, int lane) const;
   bool holdsBothWays(int lane) const;
   bool hasForce(int lane) const;
-  std::array<int, W> placesOf(std::size_t body) const;
-  void pushAlone(std::size_t body, const std::array<int, W>& places, int component);
-  void noteResponse(const std::array<int, W>& from, int component);
+  void pushAlone(int lane, int body, JointResponse::Body& touched,
+                 std::span<JointResponse::Entry> entries);
+  void eliminate(int lane, std::span<JointResponse::Entry> entries);
 
   int lanes_ = 0;
   std::array<Articulation*, W> of_{};
@@ -200,6 +231,7 @@ class JointPack {
   std::vector<JointFactor<W>> factors_, keptFactors_;
   std::vector<JointFactored<W>> factored_, keptFactored_;
   std::vector<Num<W>> keptTail_, keptScaled_;
+  std::vector<int> entryOf_;  // scratch, by row
   struct {  // where the last step of Newton's began, by row and body, and what it was off by
     std::vector<std::array<Num<W>, 3>> lambda, u, theta;
     std::array<double, W> off{};

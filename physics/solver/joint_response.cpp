@@ -1,53 +1,135 @@
-// What contacts see of the joints behind a body: columns of R, by the factor of the joints.
+// What contacts see of the joints behind a body, by the factor of the joints.
+#include <algorithm>
+
 #include "physics/solver/articulation.h"
 #include "physics/solver/joint_lanes.h"
 
 namespace physics {
 
-// The place of a body in the response of each lane, -1: no contact touches it there.
-template <int W>
-std::array<int, W> JointPack<W>::placesOf(std::size_t body) const {
-  std::array<int, W> places;
-  for (int l = 0; l < W; ++l) {
-    const bool asks = l < lanes_ && of_[l]->response_.size() > 0;
-    places[l] = asks ? of_[l]->response_.at[body] : -1;
-  }
-  return places;
+void JointResponse::clear(const JointTopology& topology) {
+  at_.assign(topology.bodyCount, -1);
+  pulls_.assign(topology.shapes.size(), Vec3::Zero());
+  slots_.clear();
+  touched_.clear();
+  starts_.assign(1, 0);
+  entries_.clear();
 }
 
-// An impulse of one on a component of a body, in the units of its lane, as if it had no joints.
-template <int W>
-void JointPack<W>::pushAlone(std::size_t body, const std::array<int, W>& places, int component) {
-  for (JointBody<W>& other : bodies_) {
-    for (int k = 0; k < 3; ++k) other.u[k] = other.theta[k] = Num<W>{};
-  }
-  JointBody<W>& pushed = bodies_[body];
-  for (int l = 0; l < lanes_; ++l) {
-    if (places[l] < 0) continue;
-    if (component < 3) {
-      pushed.u[component].v[l] = pushed.inverseMass.v[l];
-      continue;
+// What its joints are eliminated into, and those into: of each column the first row below.
+int JointResponse::touch(int body, int slot, const JointTopology& topology) {
+  at_[body] = static_cast<int>(slots_.size());
+  slots_.push_back(slot);
+  touched_.emplace_back();
+  isMet_.assign(topology.tailStart, 0);
+  for (int i = 0; i < topology.tailStart; ++i) {
+    const JointShape& shape = topology.shapes[i];
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (shape.moves[b] && shape.body[b] == body) isMet_[i] = 1;
     }
-    const Vec3 torque =
-        torqueOf(of_[l]->response_.masses[places[l]], Vec3::Unit(component - 3).eval());
-    write(pushed.theta, l, turnBy(pushed, l, torque));
+    if (!isMet_[i]) continue;
+    entries_.push_back({i, Row::Zero(), Row::Zero()});
+    const JointColumn& column = topology.columns[i];
+    const int parent = column.count > 0 ? topology.below[column.start].to : topology.tailStart;
+    if (parent < topology.tailStart) isMet_[parent] = 1;
+  }
+  starts_.push_back(static_cast<int>(entries_.size()));
+  return at_[body];
+}
+
+void JointResponse::give(int place, const Six& impulse) {
+  touched_[place].given += impulse;
+  for (const Entry& entry : entriesOf(place)) pulls_[entry.row].noalias() += entry.over * impulse;
+}
+
+JointResponse::Six JointResponse::takeGiven(int place) {
+  const Six given = touched_[place].given;
+  touched_[place].given.setZero();
+  return given;
+}
+
+void JointResponse::forgetPulls() { std::fill(pulls_.begin(), pulls_.end(), Vec3::Zero()); }
+
+JointResponse::Six JointResponse::movedBy(int place) const {
+  const Body& body = touched_[place];
+  Six by = body.alone * body.given;
+  for (const Entry& entry : entriesOf(place)) {
+    by.noalias() -= entry.of.transpose() * pulls_[entry.row];
+  }
+  return by;
+}
+
+JointResponse::SixBySix JointResponse::between(int place, int other) const {
+  SixBySix r = place == other ? touched_[place].alone : SixBySix::Zero().eval();
+  const auto a = entriesOf(place), b = entriesOf(other);
+  for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+    if (i->row == j->row) r.noalias() -= i->of.transpose() * j->over;
+    const int reached = std::min(i->row, j->row);
+    if (i->row == reached) ++i;
+    if (j->row == reached) ++j;
+  }
+  return r;
+}
+
+// M_b^-1 and J M_b^-1 in the units of its lane, of rows that are free.
+template <int W>
+void JointPack<W>::pushAlone(int l, int body, JointResponse::Body& touched,
+                             std::span<JointResponse::Entry> entries) {
+  const LaneInverse inverse = inverseOf(touched.mass);
+  const double mass = bodies_[body].inverseMass.v[l];
+  touched.alone.setZero();
+  for (int c = 0; c < 3; ++c) {
+    const Vec3 torque = torqueOf(touched.mass, Vec3::Unit(c).eval());
+    touched.alone(c, c) = mass;
+    touched.alone.col(3 + c).tail<3>() = turnOf(inverse, turnBy(bodies_[body], l, torque));
+  }
+  for (JointResponse::Entry& entry : entries) {
+    entry.of.setZero();
+    const JointShape& shape = topology_->shapes[entry.row];
+    const JointLanes<W>& row = rows_[entry.row];
+    if (!used_[entry.row] || !(row.free.v[l] > 0)) continue;
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (!shape.moves[b] || shape.body[b] != body) continue;
+      for (int r = 0; r < shape.rows; ++r) {
+        auto of = entry.of.row(r);
+        if (shape.isGap) of[r] += b == 0 ? mass : -mass;
+        if (shape.hasLinear) {
+          of.template head<3>() += mass * read(row.linear[b] + 3 * r, l).transpose();
+        }
+        if (shape.hasAngular) {
+          const Vec3 turn = read(factors_[entry.row].response[b] + 3 * r, l);
+          of.template tail<3>() += turnOf(inverse, turn).transpose();
+        }
+      }
+    }
   }
 }
 
+// L^-1 of that, and D^-1.
 template <int W>
-void JointPack<W>::noteResponse(const std::array<int, W>& from, int component) {
-  for (int l = 0; l < lanes_; ++l) {
-    if (from[l] < 0) continue;
-    JointResponse& response = of_[l]->response_;
-    for (std::size_t body = 0; body < bodies_.size(); ++body) {
-      const int to = response.at[body];
-      if (to < 0) continue;
-      float* column = response.block(to, from[l]) + JointResponse::kColumn * component;
-      const Vec3 u = read(bodies_[body].u, l);
-      const Vec3 turn = turnOf(inverseOf(response.masses[to]), read(bodies_[body].theta, l));
-      for (int k = 0; k < 3; ++k) {
-        column[k] = static_cast<float>(u[k]);
-        column[3 + k] = static_cast<float>(turn[k]);
+void JointPack<W>::eliminate(int l, std::span<JointResponse::Entry> entries) {
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    entryOf_[entries[k].row] = static_cast<int>(k);
+  }
+  for (JointResponse::Entry& entry : entries) {
+    const int i = entry.row, size = topology_->shapes[i].size;
+    const auto* inverse = factors_[i].inverse;
+    entry.over.setZero();
+    if (!used_[i]) continue;
+    for (int r = 0; r < size; ++r) {
+      for (int c = 0; c < size; ++c) {
+        const int low = std::min(r, c), high = std::max(r, c);
+        entry.over.row(r) += inverse[high * (high + 1) / 2 + low].v[l] * entry.of.row(c);
+      }
+    }
+    const JointColumn& column = topology_->columns[i];
+    for (int u = 0; u < usedCounts_[i]; ++u) {
+      const JointBelow& below = topology_->below[column.start + usedBelow_[column.start + u]];
+      if (below.to >= topology_->tailStart) continue;
+      auto& to = entries[entryOf_[below.to]].of;
+      for (int r = 0; r < topology_->shapes[below.to].size; ++r) {
+        for (int c = 0; c < size; ++c) {
+          to.row(r) -= scaled_[below.at + r * size + c].v[l] * entry.of.row(c);
+        }
       }
     }
   }
@@ -55,14 +137,18 @@ void JointPack<W>::noteResponse(const std::array<int, W>& from, int component) {
 
 template <int W>
 void JointPack<W>::respond() {
-  open_ = {};  // nothing comes to a bound
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    const std::array<int, W> places = placesOf(body);
-    if (std::all_of(places.begin(), places.end(), [](int place) { return place < 0; })) continue;
-    for (int component = 0; component < 6; ++component) {
-      pushAlone(body, places, component);
-      jointKernels<W>().follow(view());
-      noteResponse(places, component);
+  entryOf_.resize(rows_.size());
+  for (int l = 0; l < lanes_; ++l) {
+    JointResponse& response = of_[l]->response_;
+    response.forgetPulls();
+    for (std::size_t body = 0; response.size() > 0 && body < bodies_.size(); ++body) {
+      const int place = response.at_[body];
+      if (place < 0) continue;
+      const std::span<JointResponse::Entry> entries(
+          response.entries_.data() + response.starts_[place],
+          response.entries_.data() + response.starts_[place + 1]);
+      pushAlone(l, static_cast<int>(body), response.touched_[place], entries);
+      eliminate(l, entries);
     }
   }
 }
