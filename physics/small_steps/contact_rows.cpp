@@ -191,26 +191,32 @@ void SmallSteps::Impl::takeOver(const Bodies& b, const ContactBlock& block, int 
   if (!c.isLoaded()) c.held = {};
 }
 
+// What carries less than it gives way about would stand off the surface: where a load has gone,
+// what is held goes down with it, in the same parts.
+//
 // Substeps do not follow what springs of jointed bodies are drawn by: a hand that carries a heap
 // would stand in the floor by F h^2 / m of its own mass. What such a contact carries from step to
 // step beyond the weight of the lighter body becomes what it gives way about, so that it comes to
 // where the bodies just touch: the method of multipliers, by a share that is small beside the rate
-// of the springs. Down at once: what carries less than it is held by would stand off the surface.
-// But what still carries the same goes on: bodies that stood when the world began would give way by
-// their own weight, 0.06 mm at 120 substeps a second.
+// of the springs. But what still carries the same goes on: bodies that stood when the world began
+// would give way by their own weight, 0.06 mm at 120 substeps a second.
 void SmallSteps::Impl::holdCarried(const Model& w, const Batch& batch, double h) {
   constexpr double kShare = 1.0 / 32, kSame = 0.99;
-  if (batch.joined == Joined::kNot) return;
   const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
   for (const int contact : batch.contacts) {
     KeptContact& c = contacts[contact];
-    if (!isJointed(c)) continue;
     std::array<double, Manifold::kMaxPoints> stayed{};
     double sum = 0, held = 0;
     for (int k = 0; k < c.count; ++k) {
       stayed[k] = c.stayed(k) / (h * h);
       sum += stayed[k];
       held += c.held[k];
+    }
+    if (!isJointed(c)) {
+      if (sum < held) {
+        for (double& of : c.held) of *= sum / held;
+      }
+      continue;
     }
     const double weight = g / (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
     const double beyond = sum > weight ? 1 - weight / sum : 0;
