@@ -46,30 +46,33 @@ Six rowOf(const float (&d)[3][8], const float (&w)[3][8], int l) {
   return j;
 }
 
-// The rows of a lane: points, two of friction, twist; and what its bodies make of them.
+// The rows of a lane: points, two of friction, twist; and what its bodies move by under each.
 struct LaneRows {
   static constexpr int kFriction = ContactBlock::kPoints, kTwist = kFriction + 2;
-  Six a[kTwist + 1], b[kTwist + 1];
-  SixBySix ofA = SixBySix::Zero(), ofB = SixBySix::Zero(), across = SixBySix::Zero();
+  Six a[kTwist + 1], b[kTwist + 1], movedA[kTwist + 1], movedB[kTwist + 1];
 
-  LaneRows(const ContactBlock& m, int l) {
+  // `across`: what a moves by under impulses on b.
+  LaneRows(const ContactBlock& m, int l, const SixBySix& ofA, const SixBySix& ofB,
+           const SixBySix* across) {
     constexpr float kNone[3][8] = {};
-    for (int k = 0; k < m.points; ++k) {
-      a[k] = rowOf(m.n, m.point[k].wA, l);
-      b[k] = rowOf(m.n, m.point[k].wB, l);
-    }
+    const auto set = [&](int row, const float(&d)[3][8], const float(&wA)[3][8],
+                         const float(&wB)[3][8]) {
+      a[row] = rowOf(d, wA, l);
+      b[row] = rowOf(d, wB, l);
+      movedA[row].noalias() = ofA * a[row];
+      movedB[row].noalias() = ofB * b[row];
+      if (!across) return;
+      movedA[row].noalias() -= *across * b[row];
+      movedB[row].noalias() -= across->transpose() * a[row];
+    };
+    for (int k = 0; k < m.points; ++k) set(k, m.n, m.point[k].wA, m.point[k].wB);
     for (int t = 0; t < 2; ++t) {
-      a[kFriction + t] = rowOf(m.tangent[t].d, m.tangent[t].wA, l);
-      b[kFriction + t] = rowOf(m.tangent[t].d, m.tangent[t].wB, l);
+      set(kFriction + t, m.tangent[t].d, m.tangent[t].wA, m.tangent[t].wB);
     }
-    a[kTwist] = rowOf(kNone, m.twistA, l);
-    b[kTwist] = rowOf(kNone, m.twistB, l);
+    set(kTwist, kNone, m.twistA, m.twistB);
   }
   // J R J^T
-  double between(int r, int c) const {
-    return a[r].dot(ofA * a[c]) + b[r].dot(ofB * b[c]) - a[r].dot(across * b[c]) -
-           a[c].dot(across * b[r]);
-  }
+  double between(int r, int c) const { return a[r].dot(movedA[c]) + b[r].dot(movedB[c]); }
 };
 
 void takeRows(const LaneRows& rows, int l, ContactBlock& m) {
@@ -103,21 +106,20 @@ void takeRows(const LaneRows& rows, int l, ContactBlock& m) {
 
 // A = J R J^T of the rows of a lane.
 void SmallSteps::Impl::prepareResponses(Batch& batch, ContactBlock& m, int l) const {
-  LaneRows rows(m, l);
-  const auto own = [&](int slot, SixBySix& response) {
+  const auto own = [&](int slot) {
     const Responder& r = batch.responders[slot];
     if (r.articulation >= 0) {
-      response = articulations[r.articulation].response().between(r.place, r.place);
-    } else if (slot > 0) {
-      response.diagonal() << Vec3::Constant(batch.masses[slot].inverse), Vec3::Ones();
+      return articulations[r.articulation].response().between(r.place, r.place);
     }
+    SixBySix alone = SixBySix::Zero();
+    if (slot > 0) alone.diagonal() << Vec3::Constant(batch.masses[slot].inverse), Vec3::Ones();
+    return alone;
   };
-  own(m.bodyA[l], rows.ofA);
-  own(m.bodyB[l], rows.ofB);
   const Responder &a = batch.responders[m.bodyA[l]], &b = batch.responders[m.bodyB[l]];
-  if (a.articulation >= 0 && a.articulation == b.articulation) {
-    rows.across = articulations[a.articulation].response().between(a.place, b.place);
-  }
+  const bool isWithin = a.articulation >= 0 && a.articulation == b.articulation;
+  SixBySix across;
+  if (isWithin) across = articulations[a.articulation].response().between(a.place, b.place);
+  const LaneRows rows(m, l, own(m.bodyA[l]), own(m.bodyB[l]), isWithin ? &across : nullptr);
   takeRows(rows, l, m);
 }
 
