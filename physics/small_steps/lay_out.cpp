@@ -169,6 +169,7 @@ int SmallSteps::Impl::countLanes(Batch& batch, int levels) {
 // where none carries it has no friction.
 void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
   constexpr int kLanes = ContactBlock::kLanes;
+  forgetResponses(batch);
   if (batch.contacts.empty()) return batch.layNothing();
   const int levels = levelsOf(static_cast<int>(batch.contacts.size()));
   const GroupOrder order{levels};

@@ -12,15 +12,17 @@ bool SmallSteps::Impl::meetsResponse(const KeptContact& c) const {
   return (a >= 0 && responding[a]) || (b >= 0 && responding[b]);
 }
 
+// What was touched in the last step is not in this one.
+void SmallSteps::Impl::forgetResponses(Batch& batch) {
+  batch.responders.clear();
+  for (const int k : batch.articulations) articulations[k].response().clear();
+}
+
 // Which bodies of the articulations that respond contacts touch.
 void SmallSteps::Impl::takeResponses(Batch& batch) {
-  batch.responders.clear();
   const auto responds = [&](int k) { return responding[k] != 0; };
   if (std::none_of(batch.articulations.begin(), batch.articulations.end(), responds)) return;
   batch.responders.resize(batch.slots.size());
-  for (const int k : batch.articulations) {
-    articulations[k].response().clear(articulations[k].topology());
-  }
   for (const int c : batch.contacts) {
     for (const BodyId i : {contacts[c].a, contacts[c].b}) {
       const int k = articulationOf[i];

@@ -334,6 +334,7 @@ struct SmallSteps::Impl {
   BodyId leaderOf(BodyId i) const;
   bool meetsResponse(const KeptContact& c) const;
   void takeSlots(Model& w, Batch& batch, int levels);
+  void forgetResponses(Batch& batch);
   void takeResponses(Batch& batch);
   void respond(Batch& batch);
   void prepareResponses(Batch& batch, ContactBlock& block, int lane) const;

@@ -43,11 +43,11 @@ class JointResponse {
   using Six = Eigen::Matrix<double, 6, 1>;  // along, and turns
   using SixBySix = Eigen::Matrix<double, 6, 6>;
 
-  void clear(const JointTopology& topology);  // nothing is touched
+  void clear();  // nothing is touched
   // The place of a body, by its number in the articulation: it is touched from now on.
   int touch(int body, int slot, const JointTopology& topology);
   std::size_t size() const { return slots_.size(); }
-  int placeOf(std::size_t body) const { return at_[body]; }  // -1: nothing touches it
+  int placeOf(std::size_t body) const { return size() > 0 ? at_[body] : -1; }  // -1: untouched
   int slotAt(int place) const { return slots_[place]; }
   void setMass(int place, const LaneMass& mass) { touched_[place].mass = mass; }
 

@@ -6,17 +6,20 @@
 
 namespace physics {
 
-void JointResponse::clear(const JointTopology& topology) {
-  at_.assign(topology.bodyCount, -1);
-  pulls_.assign(topology.shapes.size(), Vec3::Zero());
+void JointResponse::clear() {
   slots_.clear();
   touched_.clear();
-  starts_.assign(1, 0);
+  starts_.clear();
   entries_.clear();
 }
 
 // What its joints are eliminated into, and those into: of each column the first row below.
 int JointResponse::touch(int body, int slot, const JointTopology& topology) {
+  if (slots_.empty()) {
+    at_.assign(topology.bodyCount, -1);
+    pulls_.assign(topology.shapes.size(), Vec3::Zero());
+    starts_.push_back(0);
+  }
   at_[body] = static_cast<int>(slots_.size());
   slots_.push_back(slot);
   touched_.emplace_back();
