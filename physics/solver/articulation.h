@@ -10,7 +10,6 @@
 // step side by side, one to a lane; what is done in one knows nothing of the others.
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -66,12 +65,14 @@ class JointResponse {
     Row of, over;  // of Y, and of D^-1 Y
   };
   struct Body {
+    int body;  // of the articulation
     LaneMass mass;
     SixBySix alone = SixBySix::Zero();  // M^-1
     Six given = Six::Zero();
   };
-  std::span<const Entry> entriesOf(int place) const {
-    return {entries_.data() + starts_[place], entries_.data() + starts_[place + 1]};
+  template <class Entries>
+  auto entriesOf(Entries& entries, int place) const {
+    return std::span(entries).subspan(starts_[place], starts_[place + 1] - starts_[place]);
   }
   std::vector<int> at_;         // by body of the articulation
   std::vector<int> slots_;      // by place
@@ -203,8 +204,7 @@ class JointPack {
   bool givesWay(int row, int lane) const;
   bool holdsBothWays(int lane) const;
   bool hasForce(int lane) const;
-  void pushAlone(int lane, int body, JointResponse::Body& touched,
-                 std::span<JointResponse::Entry> entries);
+  void pushAlone(int lane, JointResponse::Body& touched, std::span<JointResponse::Entry> entries);
   void eliminate(int lane, std::span<JointResponse::Entry> entries);
 
   int lanes_ = 0;

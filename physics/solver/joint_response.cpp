@@ -22,7 +22,7 @@ int JointResponse::touch(int body, int slot, const JointTopology& topology) {
   }
   at_[body] = static_cast<int>(slots_.size());
   slots_.push_back(slot);
-  touched_.emplace_back();
+  touched_.push_back({body, {}});
   isMet_.assign(topology.tailStart, 0);
   for (int i = 0; i < topology.tailStart; ++i) {
     const JointShape& shape = topology.shapes[i];
@@ -41,7 +41,8 @@ int JointResponse::touch(int body, int slot, const JointTopology& topology) {
 
 void JointResponse::give(int place, const Six& impulse) {
   touched_[place].given += impulse;
-  for (const Entry& entry : entriesOf(place)) pulls_[entry.row].noalias() += entry.over * impulse;
+  for (const Entry& entry : entriesOf(entries_, place))
+    pulls_[entry.row].noalias() += entry.over * impulse;
 }
 
 JointResponse::Six JointResponse::takeGiven(int place) {
@@ -55,7 +56,7 @@ void JointResponse::forgetPulls() { std::fill(pulls_.begin(), pulls_.end(), Vec3
 JointResponse::Six JointResponse::movedBy(int place) const {
   const Body& body = touched_[place];
   Six by = body.alone * body.given;
-  for (const Entry& entry : entriesOf(place)) {
+  for (const Entry& entry : entriesOf(entries_, place)) {
     by.noalias() -= entry.of.transpose() * pulls_[entry.row];
   }
   return by;
@@ -63,7 +64,7 @@ JointResponse::Six JointResponse::movedBy(int place) const {
 
 JointResponse::SixBySix JointResponse::between(int place, int other) const {
   SixBySix r = place == other ? touched_[place].alone : SixBySix::Zero().eval();
-  const auto a = entriesOf(place), b = entriesOf(other);
+  const auto a = entriesOf(entries_, place), b = entriesOf(entries_, other);
   for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
     if (i->row == j->row) r.noalias() -= i->of.transpose() * j->over;
     const int reached = std::min(i->row, j->row);
@@ -75,8 +76,9 @@ JointResponse::SixBySix JointResponse::between(int place, int other) const {
 
 // M_b^-1 and J M_b^-1 in the units of its lane, of rows that are free.
 template <int W>
-void JointPack<W>::pushAlone(int l, int body, JointResponse::Body& touched,
+void JointPack<W>::pushAlone(int l, JointResponse::Body& touched,
                              std::span<JointResponse::Entry> entries) {
+  const int body = touched.body;
   const LaneInverse inverse = inverseOf(touched.mass);
   const double mass = bodies_[body].inverseMass.v[l];
   touched.alone.setZero();
@@ -143,14 +145,9 @@ void JointPack<W>::respond() {
   entryOf_.resize(rows_.size());
   for (int l = 0; l < lanes_; ++l) {
     JointResponse& response = of_[l]->response_;
-    response.forgetPulls();
-    for (std::size_t body = 0; response.size() > 0 && body < bodies_.size(); ++body) {
-      const int place = response.at_[body];
-      if (place < 0) continue;
-      const std::span<JointResponse::Entry> entries(
-          response.entries_.data() + response.starts_[place],
-          response.entries_.data() + response.starts_[place + 1]);
-      pushAlone(l, static_cast<int>(body), response.touched_[place], entries);
+    for (int place = 0; place < static_cast<int>(response.size()); ++place) {
+      const auto entries = response.entriesOf(response.entries_, place);
+      pushAlone(l, response.touched_[place], entries);
       eliminate(l, entries);
     }
   }

@@ -3,6 +3,7 @@
 
 #include "physics/make/chain.h"
 #include "physics/world.h"
+#include "physics/world/measure.h"
 #include "tests/physics/stage.h"
 
 namespace physics::testing {
@@ -13,27 +14,6 @@ Settings withContacts(const Vec3& gravity) {
   settings.gravity = gravity;
   settings.contact = ContactSettings{};
   return settings;
-}
-
-double motionEnergy(const World& world) {
-  double sum = 0;
-  const Bodies& b = world.bodies();
-  for (BodyId i = 1; i < b.size(); ++i) {
-    const Vec3 w = b.pose[i].q.conjugate() * b.velocity[i].w;
-    sum +=
-        0.5 * b.mass[i] * b.velocity[i].v.squaredNorm() + 0.5 * w.dot(b.inertia[i].cwiseProduct(w));
-  }
-  return sum;
-}
-
-// And what g makes of the height of what moves.
-double energyUnderWeight(const World& world, double g) {
-  double sum = motionEnergy(world);
-  const Bodies& b = world.bodies();
-  for (BodyId i = 1; i < b.size(); ++i) {
-    if (b.motion[i] == Motion::kDynamic) sum += b.mass[i] * g * b.pose[i].x.y();
-  }
-  return sum;
 }
 
 // A bridge of planks of 31 kg, and a block that is set down on it.
@@ -108,10 +88,10 @@ TEST(ContactResponse, OfABeltOverDrumsCarriesBoxes) {
   for (int k = 0; k < 5; ++k) {
     boxes.push_back(add(Box{Vec3(0.5, 0.5, 0.5)}, Vec3(0.6 * k - 1.2, 3.1, 0), Vec3::Zero(), 10));
   }
-  const double before = energyUnderWeight(world, 9.81);
+  const double before = measure(world).total();
   for (int k = 0; k < 300; ++k) {
     world.step();
-    ASSERT_LE(energyUnderWeight(world, 9.81), before + 1e-6) << "step " << k;
+    ASSERT_LE(measure(world).total(), before + 1e-6) << "step " << k;
     ASSERT_LT(world.largestOverlap(), 5e-3) << "step " << k;
   }
   EXPECT_LT(world.largestOverlap(), 1e-3);
@@ -134,19 +114,13 @@ TEST(ContactResponse, KeepsMomentumAndGivesNoEnergy) {
   }
   const BodyId ball = addBody(world, Sphere{0.3}, Vec3(2, 1, 0), 100);
   world.setVelocity(ball, {Vec3(0, -3, 0), Vec3::Zero()});
-  const auto momentum = [&] {
-    Vec3 sum = Vec3::Zero();
-    for (BodyId i = 1; i < world.bodies().size(); ++i) {
-      sum += world.bodies().mass[i] * world.bodies().velocity[i].v;
-    }
-    return sum;
-  };
-  const Vec3 before = momentum();
-  double most = motionEnergy(world);
+  const Vec3 before = measure(world).linearMomentum;
+  double most = measure(world).kinetic;
   for (int k = 0; k < 120; ++k) {
     world.step();
-    EXPECT_LT((momentum() - before).norm(), 1e-4 * before.norm());  // single precision
-    const double now = motionEnergy(world);
+    EXPECT_LT((measure(world).linearMomentum - before).norm(),
+              1e-4 * before.norm());  // single precision
+    const double now = measure(world).kinetic;
     EXPECT_LT(now, 1.0001 * most) << "step " << k;
     most = now;
   }

@@ -10,6 +10,7 @@
 #include "physics/solver/contact_block.h"
 #include "physics/solver/lane_mass.h"
 #include "physics/world.h"
+#include "physics/world/measure.h"
 #include "tests/physics/stage.h"
 
 namespace physics::testing {
@@ -20,17 +21,6 @@ Settings asByDefault() {
   settings.gravity = Vec3(0, -9.81, 0);
   settings.contact = ContactSettings{};
   return settings;
-}
-
-double energyOf(const World& world) {
-  const Bodies& b = world.bodies();
-  double energy = 0;
-  for (BodyId i = 1; i < b.size(); ++i) {
-    const Vec3 w = b.pose[i].q.conjugate() * b.velocity[i].w;
-    energy += 0.5 * b.mass[i] * b.velocity[i].v.squaredNorm() +
-              0.5 * w.dot(b.inertia[i].cwiseProduct(w)) + 9.81 * b.mass[i] * b.pose[i].x.y();
-  }
-  return energy;
 }
 
 TEST(SmallSteps, HoldAWeightOfAThousandOnOne) {
@@ -91,12 +81,12 @@ TEST_P(HeavyEnd, KeepsTheChainClosedAndItsEnergyBounded) {
     world.add(joint);
     last = id;
   }
-  const double before = energyOf(world);
+  const double before = measure(world).total();
   double gap = 0, most = before;
   for (int k = 0; k < 600; ++k) {
     world.step();
     gap = std::max(gap, world.constraintErrors().front().largest);
-    most = std::max(most, energyOf(world));
+    most = std::max(most, measure(world).total());
   }
   EXPECT_LT(gap, 1e-5);  // measured 5e-6 m and less
   EXPECT_LE(most, before + 1e-9 * GetParam());

@@ -6,6 +6,7 @@
 #include "physics/constraints/constraint_item.h"
 #include "physics/world.h"
 #include "physics/world/measure.h"
+#include "tests/physics/stage.h"
 
 namespace physics {
 namespace {
@@ -82,13 +83,6 @@ World makeSwing() {
   settings.contact = ContactSettings{};
   World world(settings);
   constexpr int kLinks = 6;
-  const auto add = [&](const Shape& shape, const Vec3& x, double mass) {
-    BodyDef def;
-    def.shape = shape;
-    def.mass = mass;
-    def.pose.x = x;
-    return world.add(def);
-  };
   const auto join = [&](BodyId a, BodyId b, const Vec3& at) {
     BallSocketDef joint;
     joint.bodies = {a, b};
@@ -98,16 +92,17 @@ World makeSwing() {
   };
   BodyId last = kWorldBody;
   for (int k = 0; k < kLinks; ++k) {
-    const BodyId link = add(Box{Vec3(0.4, 0.1, 0.1)}, Vec3(-0.5 * k - 0.25, 3.6, 0), 1);
+    const BodyId link =
+        testing::addBody(world, Box{Vec3(0.4, 0.1, 0.1)}, Vec3(-0.5 * k - 0.25, 3.6, 0), 1);
     join(last, link, Vec3(-0.5 * k, 3.6, 0));
     last = link;
   }
-  join(last, add(Sphere{0.4}, Vec3(-3.4, 3.6, 0), 100), Vec3(-0.5 * kLinks, 3.6, 0));
-  BodyDef ground;
-  ground.shape = Plane{};
-  ground.motion = Motion::kStatic;
-  world.add(ground);
-  for (int k = 0; k < 4; ++k) add(Box{Vec3(0.5, 0.5, 0.5)}, Vec3(0.7, 0.25 + 0.5 * k, 0), 2);
+  const BodyId ball = testing::addBody(world, Sphere{0.4}, Vec3(-3.4, 3.6, 0), 100);
+  join(last, ball, Vec3(-0.5 * kLinks, 3.6, 0));
+  testing::addGround(world);
+  for (int k = 0; k < 4; ++k) {
+    testing::addBody(world, Box{Vec3(0.5, 0.5, 0.5)}, Vec3(0.7, 0.25 + 0.5 * k, 0), 2);
+  }
   return world;
 }
 
