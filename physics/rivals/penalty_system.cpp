@@ -20,6 +20,7 @@ Mat3 inertiaOf(const Bodies& bodies, BodyId body) {
 
 void SparseMotion::begin(const Bodies& bodies, std::span<const Velocity> free) {
   entries_.clear();
+  values_.clear();
   first_.assign(1, 0);
   for (BodyId body = 0; body < bodies.size(); ++body) {
     const bool moves = bodies.motion[body] == Motion::kDynamic;
@@ -44,7 +45,8 @@ void SparseMotion::begin(const Bodies& bodies, std::span<const Velocity> free) {
 void SparseMotion::add(int row, int column, const Mat3& block) {
   for (int j = 0; j < 3; ++j) {
     for (int i = row == column ? j : 0; i < 3; ++i) {
-      entries_.emplace_back(row + i, column + j, block(i, j));
+      entries_.push_back({row + i, column + j});
+      values_.push_back(block(i, j));
     }
   }
 }
@@ -56,12 +58,14 @@ void SparseMotion::addImpulse(BodyId body, const Vec3& linear, const Vec3& angul
 }
 
 bool SparseMotion::solve(std::span<Velocity> change) {
-  const int size = first_.back();
-  matrix_.resize(size, size);
-  matrix_.setFromTriplets(entries_.begin(), entries_.end());
-  factor_.compute(matrix_);
-  if (factor_.info() != Eigen::Success) return false;
-  solution_ = factor_.solve(right_);
+  if (entries_ != laidOut_) {
+    factor_.layOut(entries_);
+    laidOut_ = entries_;
+  }
+  factor_.begin();
+  for (const double value : values_) factor_.give(value);
+  if (!factor_.factorize()) return false;
+  factor_.solve(right_, solution_);
   for (std::size_t body = 0; body + 1 < first_.size(); ++body) {
     const int row = first_[body], count = sizeOf(static_cast<BodyId>(body));
     change[body] = {};

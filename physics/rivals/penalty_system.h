@@ -2,11 +2,11 @@
 // six of a body that turns.
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <span>
 #include <vector>
 
 #include "physics/bodies/body.h"
+#include "physics/solver/sparse_factor.h"
 
 namespace physics {
 
@@ -24,7 +24,8 @@ class SparseMotion {
   // Adds a momentum and an angular momentum to the right-hand side.
   void addImpulse(BodyId body, const Vec3& linear, const Vec3& angular);
 
-  // The changes of the velocities. False when the factor breaks down or they are not finite.
+  // The changes of the velocities. False when the factor breaks down or they are not finite. What
+  // has entries where it had them before is not laid out anew.
   bool solve(std::span<Velocity> change);
 
  private:
@@ -32,10 +33,10 @@ class SparseMotion {
   void add(int row, int column, const Mat3& block);
 
   std::vector<int> first_;  // the first unknown of every body, and their number
-  std::vector<Eigen::Triplet<double>> entries_;
+  std::vector<std::array<int, 2>> entries_, laidOut_;
+  std::vector<double> values_;  // of the entries
   Eigen::VectorXd right_, solution_;
-  Eigen::SparseMatrix<double> matrix_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor_;
+  SparseFactor factor_;
 };
 
 template <int R, class Blocks>

@@ -1,13 +1,13 @@
 // The order of elimination.
 #include "physics/solver/joint_topology.h"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <set>
+
+#include "physics/solver/sparse_pattern.h"
 
 namespace physics {
 namespace {
@@ -56,23 +56,19 @@ std::vector<int> orderOf(const std::vector<int>& rows, std::size_t count, const 
   if (rows.empty()) return {};
   std::vector<int> place(count, -1), result;
   const int size = static_cast<int>(rows.size());
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<std::array<int, 2>> entries;
   for (int k = 0; k < size; ++k) {
     place[rows[k]] = k;
-    entries.emplace_back(k, k, 1.0);
+    entries.push_back({k, k});
   }
   for (const auto& list : at) {
     for (const auto& [i, bi] : list) {
       for (const auto& [j, bj] : list) {
-        if (i != j && place[i] >= 0 && place[j] >= 0) entries.emplace_back(place[i], place[j], 1.0);
+        if (place[j] >= 0 && place[i] > place[j]) entries.push_back({place[i], place[j]});
       }
     }
   }
-  Eigen::SparseMatrix<double> pattern(size, size);
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(pattern, order);
-  for (int k = 0; k < size; ++k) result.push_back(rows[order.indices()[k]]);
+  for (const int k : leastDegreeOrder(entries)) result.push_back(rows[k]);
   return result;
 }
 

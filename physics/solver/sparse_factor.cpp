@@ -19,7 +19,8 @@ void SparseFactor::begin() {
   next_ = 0;
 }
 
-void SparseFactor::factorize() {
+bool SparseFactor::factorize() {
+  bool isRegular = true;
   pattern_.beginFilling();
   for (int k = 0; k < size(); ++k) {
     pattern_.forEachAbove(k, [&](int row, int slot) { row_[row] += values_[slot]; });
@@ -28,14 +29,17 @@ void SparseFactor::factorize() {
     for (const int i : pattern_.reach(k)) {
       const double value = row_[i], scaled = value / diagonal_[i];
       row_[i] = 0;
-      for (int p = pattern_.start(i); p < pattern_.end(i); ++p) {
-        row_[pattern_.rowAt(p)] -= lower_[p] * value;
-      }
+      const int start = pattern_.start(i), count = pattern_.end(i) - start;
+      const int* below = pattern_.rowsFrom(start);
+      const double* lower = lower_.data() + start;
+      for (int p = 0; p < count; ++p) row_[below[p]] -= lower[p] * value;
       d -= scaled * value;
       lower_[pattern_.append(i, k)] = scaled;
     }
+    isRegular = isRegular && d != 0;
     diagonal_[k] = d != 0 ? d : std::numeric_limits<double>::infinity();
   }
+  return isRegular;
 }
 
 // By the factor, where it stands in row_.

@@ -17,7 +17,8 @@ class SparseFactor {
 
   void begin();  // of giving values, which follow in the order of the entries
   void give(double value) { values_[pattern_.slotOf(next_++)] += value; }
-  void factorize();  // a zero pivot moves nothing
+  // False where a pivot is zero; what it stands for does not move.
+  bool factorize();
   void solve(const Eigen::VectorXd& right, Eigen::VectorXd& solution);
   void refine(const Eigen::VectorXd& right, Eigen::VectorXd& solution);  // by what it leaves
 

@@ -23,15 +23,24 @@ Matrix patternOf(std::span<const std::array<int, 2>> entries) {
   return pattern;
 }
 
-}  // namespace
-
-void SparsePattern::layOut(std::span<const std::array<int, 2>> entries) {
-  Matrix pattern = patternOf(entries);
+std::vector<int> orderOf(const Matrix& pattern) {
   const Matrix both = pattern.selfadjointView<Eigen::Lower>();
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(both, order);
-  const auto places = order.inverse().eval();
-  order_.assign(places.indices().begin(), places.indices().end());
+  return {order.indices().begin(), order.indices().end()};
+}
+
+}  // namespace
+
+std::vector<int> leastDegreeOrder(std::span<const std::array<int, 2>> entries) {
+  return orderOf(patternOf(entries));
+}
+
+void SparsePattern::layOut(std::span<const std::array<int, 2>> entries) {
+  Matrix pattern = patternOf(entries);
+  const std::vector<int> order = orderOf(pattern);
+  order_.resize(order.size());
+  for (int k = 0; k < size(); ++k) order_[order[k]] = k;
   const auto columnOf = [&](int i, int j) { return std::max(order_[i], order_[j]); };
   columnStarts_.assign(order_.size() + 1, 0);
   for (int j = 0; j < size(); ++j) {

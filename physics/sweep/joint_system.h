@@ -4,12 +4,12 @@
 // little.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "physics/bodies/body.h"
 #include "physics/constraints/constraint.h"
+#include "physics/solver/sparse_factor.h"
 
 namespace physics {
 
@@ -50,11 +50,6 @@ struct JointMotion {
 
 class JointSystem {
  public:
-  JointSystem();
-  ~JointSystem();
-  JointSystem(JointSystem&&) noexcept;
-  JointSystem& operator=(JointSystem&&) noexcept;
-
   // Takes the joints' bodies and row counts; needed again only when these change.
   void layOut(std::span<const JointRows> joints, const Bodies& bodies);
   bool isLaidOutFor(std::size_t joints) const;
@@ -66,8 +61,11 @@ class JointSystem {
   void solve(std::span<const JointRows> joints, std::span<Vec3> change);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::size_t joints_ = 0;
+  std::vector<std::array<int, 2>> pairs_;  // later, earlier: blocks of the lower triangle
+  std::vector<bool> moves_;
+  SparseFactor factor_;
+  Eigen::VectorXd right_, solution_;
 };
 
 }  // namespace physics

@@ -22,13 +22,13 @@ VectorOf<C> difference(const C& item, std::vector<Pose>& pose, BodyId body, int 
   Vec3 dx = Vec3::Zero(), turn = Vec3::Zero();
   (k < 3 ? dx : turn)[k % 3] = kStep;
   const Pose here = pose[body];
-  displace(pose[body], dx, turn);
-  const auto ahead = evaluated(item, pose, w).c;
-  pose[body] = here;
-  displace(pose[body], -dx, -turn);
-  const auto behind = evaluated(item, pose, w).c;
-  pose[body] = here;
-  return (ahead - behind) / (2 * kStep);
+  VectorOf<C> sum = VectorOf<C>::Zero();
+  for (const double side : {1.0, -1.0}) {
+    displace(pose[body], side * dx, side * turn);
+    sum += side * evaluated(item, pose, w).c;
+    pose[body] = here;
+  }
+  return sum / (2 * kStep);
 }
 
 // A one-sided row that has nothing to do needs no gradient, and a limit may have none at its
