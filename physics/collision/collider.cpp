@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "physics/base/archive.h"
 #include "physics/base/profile.h"
@@ -293,6 +294,19 @@ std::span<const Found> Collider::found() const {
   return impl_->found;
 }
 
+bool Collider::lookAt(std::uint64_t pair, const Pose& poseA, const Pose& poseB, double near,
+                      double turn, Manifold& manifold) const {
+  Watch watch;
+  std::tie(watch.a, watch.b) = Pairs::itemsOf(pair);
+  const Item &a = impl_->pairs.items()[watch.a], &b = impl_->pairs.items()[watch.b];
+  if (b.solid.kind == SolidKind::triangles) return false;
+  impl_->pairs.name(watch, manifold);
+  const Relative pose = collision::relativePose(a.at(poseA), b.at(poseB));
+  touch(a.solid, b.solid, pose, near, near, turn, manifold);
+  if (a.isPart || b.isPart) Impl::toBodies(a, b, manifold);
+  return true;
+}
+
 bool Collider::outdated(std::span<const Pose> start, std::span<const Pose> end,
                         std::span<const BodyId> bodies) const {
   return impl_ && impl_->pairs.outdated(start, end, bodies);
@@ -331,7 +345,8 @@ double Collider::thickness(BodyId body) const {
   if (!impl_) return smallest;
   const int first = impl_->pairs.indexOf(body);
   for (int i = first; i < impl_->pairs.endOf(first); ++i) {
-    if (i >= 0) smallest = std::min(smallest, impl_->pairs.items()[i].solid.thickness);
+    if (i < 0 || impl_->pairs.items()[i].isPlane) continue;
+    smallest = std::min(smallest, impl_->pairs.items()[i].solid.thickness);
   }
   return smallest;
 }

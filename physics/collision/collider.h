@@ -77,6 +77,12 @@ class Collider {
                               std::span<const double> push, Workers& workers);
   std::span<const Found> found() const;  // by the last look
 
+  // The manifold of a pair that a look found, at these poses of its two bodies: the points whose
+  // gap is at most `near` [m], where corners may turn by `turn` [m] until the next look. False: one
+  // is a mesh, which is not looked at so.
+  bool lookAt(std::uint64_t pair, const Pose& poseA, const Pose& poseB, double near, double turn,
+              Manifold& manifold) const;
+
   // True when one of `bodies`, moving from `start` to `end`, leaves the bounds that the last find()
   // looked in: contacts may be missing, call find() again.
   bool outdated(std::span<const Pose> start, std::span<const Pose> end,
@@ -95,7 +101,8 @@ class Collider {
   // Signed distance [m] (negative: depth) of two bodies at these poses; +infinity for a pair
   // without shapes. For measures and tests, not for the step.
   double distance(BodyId a, const Pose& poseA, BodyId b, const Pose& poseB) const;
-  double thickness(BodyId body) const;  // smallest full extent of its parts; +infinity: no shape
+  double thickness(
+      BodyId body) const;  // smallest full extent of its parts; +infinity: plane, or none
 
   // Work done so far, for measures: narrow-phase evaluations and pairs now watched.
   struct Counts {

@@ -61,8 +61,8 @@ bool reaches(const Bounds& bounds, const Item& plane) {
 }
 
 // Ordered as the items are: by body, then part. Low bits are left for the sides of a pair.
+constexpr int kItemBits = 28, kSideBits = 8;
 std::uint64_t pairKey(int p, int q) {
-  constexpr int kItemBits = 28, kSideBits = 8;
   return static_cast<std::uint64_t>(p) << (kItemBits + kSideBits) | static_cast<std::uint64_t>(q)
                                                                         << kSideBits;
 }
@@ -151,6 +151,12 @@ Watch Pairs::newWatch(const std::pair<int, int>& items, int finding) {
   watch.finding = finding;
   name(watch, findings_[finding].manifold);
   return watch;
+}
+
+std::pair<int, int> Pairs::itemsOf(std::uint64_t key) {
+  constexpr std::uint64_t kItem = (std::uint64_t{1} << kItemBits) - 1;
+  return {static_cast<int>(key >> (kItemBits + kSideBits)),
+          static_cast<int>(key >> kSideBits & kItem)};
 }
 
 void Pairs::name(const Watch& watch, Manifold& manifold) const {

@@ -47,6 +47,9 @@ class Pairs {
     return end;
   }
 
+  static std::pair<int, int> itemsOf(std::uint64_t key);  // of a manifold's pair
+  void name(const Watch& watch, Manifold& manifold) const;
+
   std::vector<Watch>& watches() { return watches_; }  // sorted by (a, b)
   const std::vector<Watch>& watches() const { return watches_; }
   Finding& finding(const Watch& watch) { return findings_[watch.finding]; }
@@ -71,7 +74,6 @@ class Pairs {
   void mergeFresh(Workers& workers);
   void makeRoom(std::size_t more);
   Watch newWatch(const std::pair<int, int>& items, int finding);
-  void name(const Watch& watch, Manifold& manifold) const;
   void archiveFinding(Archive& a, const Watch& watch);
   static void setMotion(Item& item, const Mat3& R, const Pose& from, const Pose& to);
 

@@ -158,6 +158,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
     contactKernels().prepare(blocks.data(), to - from, batch.masses.data(), friction);
     if (isDeep(batch, blocks)) someDeep = true;
   });
+  noteSliding(batch);
   batch.isDeep = someDeep;
   if (batch.isDeep) noteDeep(batch);
 }

@@ -50,6 +50,7 @@ void SmallSteps::Batch::layNothing() {
   groups.assign(1, 0);
   stages.clear();
   blocks.clear();
+  sliding.clear();
 }
 
 // What one contact moves: a body, or all of an articulation that responds.
@@ -70,16 +71,18 @@ void SmallSteps::Impl::takeSlots(Model& w, Batch& batch, int levels) {
   batch.before.resize(batch.slots.size());
 }
 
-SmallSteps::Impl::Place SmallSteps::Impl::placeOf(const Bodies& b, const KeptContact& c,
-                                                  int levels) const {
+// What meets may be another corner or all of a face a substep later, where bodies go far.
+SmallSteps::Impl::Place SmallSteps::Impl::placeOf(const Bodies& b, int contact, int levels) const {
   const GroupOrder order{levels};
+  const KeptContact& c = contacts[contact];
+  const bool slides = !sliding.empty() && sliding[contact] != 0;
   const bool movesA = b.inverse[c.a].m > 0, movesB = b.inverse[c.b].m > 0;
   const auto partOf = [&](BodyId i) { return bisection.partOf(slotOf[i] - 1); };
   Place place;
   if (movesA) place.slotA = slotOf[leaderOf(c.a)];
   if (movesB) place.slotB = slotOf[leaderOf(c.b)];
   const bool isFixed = !movesA || !movesB;
-  place.points = std::max(c.count, 1);
+  place.points = slides ? ContactBlock::kPoints : std::max(c.count, 1);
   place.sort = (c.isLoaded() ? 1 : 2) * ContactBlock::kPoints - place.points;
   if (meetsResponse(c)) {
     place.stage = isFixed ? order.respondingFixed() : order.responding();
@@ -124,7 +127,7 @@ void SmallSteps::Impl::groupContacts(Model& w, const Batch& batch, int levels) {
   places.resize(batch.contacts.size());
   w.workers.forEachChunk(count, kLeastContacts, [&](int from, int to) {
     for (int i = from; i < to; ++i) {
-      places[i] = placeOf(w.bodies, contacts[batch.contacts[i]], levels);
+      places[i] = placeOf(w.bodies, batch.contacts[i], levels);
     }
   });
   groupEnd.assign(GroupOrder{levels}.count(), 0);

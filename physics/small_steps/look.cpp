@@ -16,40 +16,43 @@ std::span<const Found> findContacts(Model& w, std::span<const double> push = {})
 
 }  // namespace
 
+// Of a body against another, within this step: by its velocity, and what hits add.
+Vec3 SmallSteps::Impl::wayInStep(const Model& w, const KeptContact& c) const {
+  const std::vector<Velocity>& velocity = w.bodies.velocity;
+  return w.settings.dt * (velocity[c.b].v - velocity[c.a].v) + pushed[c.b] - pushed[c.a];
+}
+
+// What moves by less than half of its thickness stays on its own side of what it meets.
+double SmallSteps::Impl::ownSide(const KeptContact& c) const {
+  return 0.5 * std::min(thickness[c.a], thickness[c.b]);
+}
+
+bool SmallSteps::Impl::goesFar(const Model& w, const KeptContact& c) const {
+  const double least = ownSide(c);
+  return wayInStep(w, c).squaredNorm() >= least * least;
+}
+
 // By body: how much further hits may take it than it is about to go, which is with what hits it;
-// and on with that to what it touches, as far as the pushes of a substep reach. Of less than half
-// of its thickness nothing is to be known: it stays on its own side of what it meets. False: there
-// is no more.
+// and on with that to what it touches, as far as the pushes of a substep reach. Of what goes less
+// far nothing is to be known. False: there is no more.
 bool SmallSteps::Impl::findPushes(Model& w) {
-  constexpr double kOwnSide = 0.5;
   const Bodies& b = w.bodies;
-  const double dt = w.settings.dt;
-  const auto wayOf = [&](const KeptContact& c) {
-    return (dt * (b.velocity[c.b].v - b.velocity[c.a].v) + pushed[c.b] - pushed[c.a]).eval();
-  };
-  const auto leastOf = [&](const KeptContact& c) {
-    return kOwnSide * std::min(thickness[c.a], thickness[c.b]);
-  };
-  const auto goesFar = [&](const KeptContact& c) {
-    if (!isMovable(b, c.a) || !isMovable(b, c.b)) return false;
-    const double least = leastOf(c);
-    return wayOf(c).squaredNorm() >= least * least;
+  const auto mayPush = [&](const KeptContact& c) {
+    return isMovable(b, c.a) && isMovable(b, c.b) && goesFar(w, c);
   };
   std::fill(pushed.begin(), pushed.end(), Vec3::Zero());
   std::atomic<bool> any = false;
   w.workers.forEachChunk(static_cast<int>(contacts.size()), kLeastContacts, [&](int from, int to) {
-    if (std::any_of(contacts.begin() + from, contacts.begin() + to, goesFar)) any = true;
+    if (std::any_of(contacts.begin() + from, contacts.begin() + to, mayPush)) any = true;
   });
   bool some = false, more = any;
   for (int k = 0; k < kPositionSweeps && more; ++k) {
     more = false;
     for (const KeptContact& c : contacts) {
-      if (!goesFar(c)) continue;
-      const Vec3 way = wayOf(c);
-      const double least = leastOf(c);
+      if (!mayPush(c)) continue;
       const Vec3 n = normalOf(c, b.pose);
-      const double closing = n.dot(way);
-      if (!(closing > least)) continue;
+      const double closing = n.dot(wayInStep(w, c));
+      if (!(closing > ownSide(c))) continue;
       pushed[c.a] += closing * n;
       pushed[c.b] -= closing * n;
       some = more = true;
@@ -58,6 +61,20 @@ bool SmallSteps::Impl::findPushes(Model& w) {
   if (!some) return false;
   for (std::size_t i = 0; i < pushed.size(); ++i) push[i] = pushed[i].norm();
   return true;
+}
+
+// Contacts of bodies that go far past each other: other features than those of the start will meet.
+void SmallSteps::Impl::findSliding(Model& w) {
+  std::atomic<bool> some = false;
+  sliding.assign(contacts.size(), 0);
+  w.workers.forEachChunk(static_cast<int>(contacts.size()), kLeastContacts, [&](int from, int to) {
+    for (int k = from; k < to; ++k) {
+      if (!goesFar(w, contacts[k])) continue;
+      sliding[k] = 1;
+      some = true;
+    }
+  });
+  if (!some) sliding.clear();
 }
 
 // Contacts from the present poses to where the bodies would be at the end of the step. False: the
@@ -89,6 +106,7 @@ bool SmallSteps::Impl::lookOnce(Model& w) {
   }
   keep(found, b, w.workers, contacts, before);
   if (findPushes(w)) keep(findContacts(w, push), b, w.workers, contacts, before);
+  findSliding(w);
   return true;
 }
 

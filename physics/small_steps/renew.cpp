@@ -1,4 +1,5 @@
-// Rows of contacts anew where a body has turned so far that its arms and inertia are others.
+// Rows of contacts anew: where a body has turned so far that its arms and inertia are others, and
+// where bodies go so far past each other that other features of them meet.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -120,8 +121,68 @@ void SmallSteps::Impl::renew(const Model& w, const Batch& batch, ContactBlock& b
   }
 }
 
+void SmallSteps::Impl::noteSliding(Batch& batch) const {
+  batch.sliding.clear();
+  if (sliding.empty()) return;
+  for (std::size_t i = 0; i < batch.blocks.size(); ++i) {
+    for (int l = 0; l < ContactBlock::kLanes; ++l) {
+      const int k = batch.blocks[i].contact[l];
+      if (k >= 0 && sliding[k]) batch.sliding.emplace_back(static_cast<int>(i), l);
+    }
+  }
+}
+
+// What meets at the present poses, or will within a substep. False: it is not looked for.
+bool SmallSteps::Impl::findFeatures(const Model& w, const KeptContact& c, Manifold& found) const {
+  const Bodies& b = w.bodies;
+  const double h = lengthOf(b, c), way = h * (b.velocity[c.a].v - b.velocity[c.b].v).norm();
+  double turn = 0;
+  for (const BodyId i : {c.a, c.b}) {
+    if (isMovable(b, i)) turn += h * radius[i] * b.velocity[i].w.norm();
+  }
+  const double near = w.settings.contact->margin + way + turn;
+  return w.collider.lookAt(c.key, b.pose[c.a], b.pose[c.b], near, turn, found);
+}
+
+// True: these are others for lane l. What it carried is given again where that has not turned: the
+// solve takes back along its rows what it gave.
+bool SmallSteps::Impl::lookAtSliding(const Model& w, ContactBlock& block, int l) {
+  KeptContact& c = contacts[block.contact[l]];
+  Manifold found;
+  if (!findFeatures(w, c, found) || (c.count == 0 && found.count == 0)) return false;
+  found.count = std::min(found.count, block.points);
+  const Vec3 n = normalOf(c, w.bodies.pose);
+  KeptContact now = c;
+  for (int k = 0; k < c.count; ++k) now.lambda[k] = block.point[k].lambda[l];
+  physics::renew(found, w.bodies, now);
+  physics::renew(found, w.bodies, c);
+  const bool goesOn = n.cross(normalOf(c, w.bodies.pose)).norm() < kFar;
+  for (int k = 0; k < block.points; ++k) {
+    block.point[k].lambda[l] = goesOn && k < c.count ? static_cast<float>(now.lambda[k]) : 0;
+  }
+  if (!goesOn) block.tangent[0].lambda[l] = block.tangent[1].lambda[l] = block.twist[l] = 0;
+  return true;
+}
+
+// At the start of a substep.
+void SmallSteps::Impl::lookAtSliding(Model& w, Batch& batch) {
+  if (batch.sliding.empty() || (stepsAccurately(w, batch) && !batch.isLost)) return;
+  batch.turned.assign(batch.slots.size(), 0);
+  for (const auto& [i, l] : batch.sliding) {
+    ContactBlock& block = batch.blocks[i];
+    if (!lookAtSliding(w, block, l)) continue;
+    batch.turned[block.bodyA[l]] = batch.turned[block.bodyB[l]] = 1;
+  }
+  batch.turned[0] = 0;  // what does not move
+  renewRows(w, batch);
+}
+
 void SmallSteps::Impl::renewTurned(Model& w, Batch& batch) {
-  if (batch.blocks.empty() || !findTurned(w, batch)) return;
+  if (!batch.blocks.empty() && findTurned(w, batch)) renewRows(w, batch);
+}
+
+// Of the bodies that turned.
+void SmallSteps::Impl::renewRows(Model& w, Batch& batch) {
   for (std::size_t s = 1; s < batch.slots.size(); ++s) {
     if (!batch.turned[s]) continue;
     batch.masses[s] = laneMassOf(masses[batch.slots[s]]);

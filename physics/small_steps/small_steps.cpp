@@ -100,6 +100,7 @@ void SmallSteps::Impl::runSubsteps(Model& w, Batch& batch, double h, int count,
     takeFactors(w.kinds, w.bodies, now + i * h, now + (i + 1) * h);
     predict(w, batch, i == 0);
     if (i == 0 && !batch.blocks.empty()) rows(w, batch);
+    if (i > 0 || batch.isAgain) lookAtSliding(w, batch);
     lookAgain(w, batch, h);
     noteApproach(w, batch, h);
     substep(w, batch, h, report);

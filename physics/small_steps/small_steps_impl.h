@@ -8,7 +8,7 @@
 //   contact_motion.cpp bodies into these lanes, and back
 //   take_turns.cpp    contacts and joints in turns, and that no energy comes of it
 //   given.cpp         what contacts give bodies, by an accuracy
-//   renew.cpp         rows anew of what has turned far
+//   renew.cpp         rows anew of what has turned far, or goes far past each other
 //   substep.cpp       a substep of a batch
 //   fly.cpp           bodies that nothing holds, and those that are about to meet
 //   accurately.cpp    islands that step by an accuracy, and touch nothing
@@ -128,8 +128,9 @@ struct SmallSteps::Batch {
   std::vector<Displacement> given;  // by slot: impulses, and turns in the units of the lanes
   std::vector<BodyId> slots;        // the body of each slot
   std::vector<KeptStart> kept;      // of `bodies`, where joints may have to make their step again
-  std::vector<char> turned;         // by slot: so far that its rows are to be prepared anew
-  std::vector<int> partOf;          // by slot, where islands step by an accuracy: which of them
+  std::vector<std::pair<int, int>> sliding;  // blocks and lanes: bodies go far past each other
+  std::vector<char> turned;  // by slot: so far that its rows are to be prepared anew
+  std::vector<int> partOf;   // by slot, where islands step by an accuracy: which of them
 
   void layNothing();  // there are no contacts
   bool takesTurns() const { return joined == Joined::kTakesTurns; }
@@ -250,6 +251,7 @@ struct SmallSteps::Impl {
   std::vector<double> radius, thickness;  // by body, of its shape
   std::vector<Vec3> pushed;               // by body: what hits add to its way in this step [m]
   std::vector<double> push;               // and how far that is
+  std::vector<char> sliding;              // by contact: far in this step; empty: none does
   enum class Held : char { kNot, kJoined, kTouching };          // by joints or points; by contacts
   std::vector<Held> held;                                       // of an island, by its first body
   std::vector<Joined> joined;                                   // the same
@@ -319,13 +321,22 @@ struct SmallSteps::Impl {
   void look(Model& w);
   bool lookOnce(Model& w);
   bool findPushes(Model& w);
+  Vec3 wayInStep(const Model& w, const KeptContact& c) const;
+  double ownSide(const KeptContact& c) const;
+  bool goesFar(const Model& w, const KeptContact& c) const;
+  void findSliding(Model& w);
+  void noteSliding(Batch& batch) const;
+  bool findFeatures(const Model& w, const KeptContact& c, Manifold& found) const;
+  bool lookAtSliding(const Model& w, ContactBlock& block, int l);
+  void lookAtSliding(Model& w, Batch& batch);
+  void renewRows(Model& w, Batch& batch);
   int leastOf(const Model& w, BodyId i) const;
   void divide(Model& w);
   int substepsForApproach(const Model& w, const KeptContact& c) const;
   void assign(Model& w);
   void assign(const Model& w, BodyId i);
   Batch& batchFor(const Model& w, BodyId root);
-  Place placeOf(const Bodies& b, const KeptContact& c, int levels) const;
+  Place placeOf(const Bodies& b, int contact, int levels) const;
   static int colourOf(const Place& place, std::uint64_t* taken);
   template <class F>
   static void forEachPlanned(Model& w, int levels, F&& f);

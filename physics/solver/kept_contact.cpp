@@ -120,6 +120,12 @@ void keep(std::span<const Found> found, const Bodies& bodies, Workers& workers,
   });
 }
 
+void renew(const Manifold& found, const Bodies& bodies, KeptContact& contact) {
+  const KeptContact old = contact;
+  take(found, bodies, contact);
+  match(old, contact);
+}
+
 Vec3 normalOf(const KeptContact& contact, std::span<const Pose> pose) {
   if (contact.carried) return pose[contact.b].q * contact.normal;
   if (contact.radial) {

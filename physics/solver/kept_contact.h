@@ -42,6 +42,9 @@ struct KeptContact {
 void keep(std::span<const Found> found, const Bodies& bodies, Workers& workers,
           std::vector<KeptContact>& contacts, std::vector<KeptContact>& before);
 
+// A contact's surfaces are those of `found` from here on, which is of the same pair.
+void renew(const Manifold& found, const Bodies& bodies, KeptContact& contact);
+
 // The same as the sweeps' pair, for reports: multipliers belong to a substep of `step`.
 ContactPair pairOf(const KeptContact& contact, double step);
 

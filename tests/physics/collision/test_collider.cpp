@@ -174,6 +174,29 @@ TEST(Collider, TellsWhenBodiesLeaveTheBoundsItLookedIn) {
   EXPECT_TRUE(pile.collider.outdated(pile.poses, end, pile.bodies()));
 }
 
+// A box that lay on another is beside it now.
+TEST(Collider, LooksAtAPairThatItFoundWhereItsBodiesAreNow) {
+  Pile pile;
+  pile.add(Box{}, Vec3::Zero(), false);
+  pile.add(Box{}, Vec3(0, 1.001, 0));
+  const std::vector<Manifold> found = pile.find();
+  ASSERT_EQ(found.size(), 1u);
+  const Manifold& on = found[0];
+  const auto at = [&](const Vec3& x, double near) {
+    std::array<Pose, 3> poses = {Pose{}, pile.poses[1], pile.poses[2]};
+    poses[2].x = x;
+    Manifold manifold;
+    EXPECT_TRUE(pile.collider.lookAt(on.pair, poses[on.a], poses[on.b], near, 0, manifold));
+    return manifold;
+  };
+  EXPECT_TRUE(equal(at(Vec3(0, 1.001, 0), 0.02), on));
+  const Manifold beside = at(Vec3(1.01, 0, 0), 0.02);
+  EXPECT_EQ(beside.count, 4);
+  EXPECT_NEAR(std::abs(beside.normal.x()), 1, 1e-12);
+  EXPECT_EQ(at(Vec3(1.01, 0, 0), 0.005).count, 0);
+  EXPECT_EQ(beside.pair, on.pair);
+}
+
 TEST(Collider, DistanceOfABodyWithoutShapeIsInfinite) {
   Pile pile;
   pile.add(Sphere{.5}, Vec3::Zero());
