@@ -16,6 +16,7 @@
 #include "app/base/interrupt.h"
 #include "app/base/nearest.h"
 #include "app/commands/commands.h"
+#include "scenes/joined.h"
 
 namespace app {
 namespace {
@@ -29,7 +30,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
                        const std::string& all) {
   const std::string nearest = nearestWord(word, known);
   if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
-  return fmt::format("{} {}", all, fmt::join(known, ", "));
+  return fmt::format("{} {}", all, scenes::joined(known, ", "));
 }
 
 // The first command or option of these arguments that there is not, and the nearest; empty: none.

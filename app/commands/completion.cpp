@@ -8,6 +8,7 @@
 #include "app/base/build_info.h"
 #include "app/base/console.h"
 #include "app/commands/commands.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -47,7 +48,7 @@ std::string bashScript(const CLI::App& line) {
     const std::size_t space = path.rfind(' ');
     const std::string before = space == std::string::npos ? "" : path.substr(0, space);
     cases += fmt::format("      '{} {}') command='{}'; known='{}';;\n", before, command.get_name(),
-                         path, fmt::join(follows(command), " "));
+                         path, scenes::joined(follows(command), " "));
   });
   return fmt::format(
       "# dbd completion bash > /etc/bash_completion.d/dbd\n"
@@ -61,7 +62,7 @@ std::string bashScript(const CLI::App& line) {
       "  [ ${{#COMPREPLY[@]}} -gt 0 ] || COMPREPLY=($(compgen -f -- \"$current\"))\n"
       "}}\n"
       "complete -F _dbd dbd\n",
-      fmt::join(follows(line), " "), cases);
+      scenes::joined(follows(line), " "), cases);
 }
 
 std::string summaryOf(const std::string& text) { return text.substr(0, text.find('\n')); }

@@ -8,6 +8,7 @@
 #include "app/commands/commands.h"
 #include "app/run/run_record.h"
 #include "scenes/figure/figure_sheet.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -44,8 +45,8 @@ std::string asTable(const std::vector<scenes::Scene>& library,
                     const std::vector<scenes::FigureSheet>& figures) {
   std::string table;
   for (const scenes::Scene& scene : library) {
-    table +=
-        fmt::format("{:<18}{:<48}{}\n", scene.name, scene.title, fmt::join(scene.effects, " "));
+    table += fmt::format("{:<18}{:<48}{}\n", scene.name, scene.title,
+                         scenes::joined(scene.effects, " "));
   }
   for (const scenes::FigureSheet& figure : figures) {
     table += fmt::format("{:<18}{}\n", figure.name, figure.title);

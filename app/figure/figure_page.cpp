@@ -8,6 +8,7 @@
 #include "app/base/output_file.h"
 #include "app/figure/figure_record.h"
 #include "app/run/run_page.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -85,7 +86,7 @@ std::string methodsOf(const FigureRecord& record) {
   for (const Json& scene : record.inputs.value("scenes", Json::array())) {
     methods.insert(scene.value("method", ""));
   }
-  return fmt::format("{}", fmt::join(methods, "; "));
+  return scenes::joined(methods, "; ");
 }
 
 std::string showFigure(const FigureRecord& record) {

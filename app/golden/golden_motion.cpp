@@ -11,6 +11,7 @@
 #include "app/base/build_info.h"
 #include "app/base/numbers.h"
 #include "app/trust/difference.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -108,7 +109,7 @@ Json toJson(const GoldenMotion& motion) {
   for (const auto& [frame, numbers] : motion.places) {
     places.push_back({{"frame", frame}, {"xyz", fmt::format("{}", fmt::join(numbers, " "))}});
   }
-  Json json = {{"states", fmt::format("{}", fmt::join(motion.states, " "))},
+  Json json = {{"states", scenes::joined(motion.states, " ")},
                {"names", motion.names},
                {"unit", motion.unit},
                {"places", places}};

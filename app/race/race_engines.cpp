@@ -2,13 +2,13 @@
 #include "app/race/race_engines.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "app/base/build_info.h"
 #include "app/base/nearest.h"
+#include "scenes/joined.h"
 #include "scenes/measure/survey.h"
 #include "scenes/read/settings_reader.h"
 
@@ -89,7 +89,7 @@ std::vector<std::string> checkedRaceEngines(const std::vector<std::string>& word
         other != std::end(kWords)
             ? fmt::format("--engines: {} was not found when this was built; see dbd doctor", *word)
             : fmt::format("--engines: no engine '{}'; {}", *word,
-                          nearest.empty() ? fmt::format("there are {}", fmt::join(known, ", "))
+                          nearest.empty() ? fmt::format("there are {}", scenes::joined(known, ", "))
                                           : fmt::format("did you mean '{}'?", nearest)));
   }
   if (words.size() < 2) throw scenes::InputError("--engines: a race takes two engines or more");

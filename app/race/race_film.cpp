@@ -2,7 +2,6 @@
 #include "app/race/race_film.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -14,6 +13,7 @@
 #include "app/run/whole_frames.h"
 #include "render/film.h"
 #include "render/png.h"
+#include "scenes/joined.h"
 #include "scenes/view/view.h"
 
 namespace app {
@@ -77,7 +77,7 @@ std::string commandOf(const Race& race, const RaceDrawing& drawing, const RaceLa
   std::vector<std::string> engines;
   for (const RaceTrack& track : race.tracks) engines.push_back(track.entry.engine);
   return fmt::format("{} --engines {} --size {}x{} --quality {}", commandOf("race", record),
-                     fmt::join(engines, ","), layout.width, layout.height,
+                     scenes::joined(engines, ","), layout.width, layout.height,
                      qualityName(drawing.quality));
 }
 

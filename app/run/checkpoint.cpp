@@ -7,6 +7,7 @@
 
 #include "app/base/build_info.h"
 #include "app/base/output_file.h"
+#include "scenes/joined.h"
 #include "scenes/read/file_text.h"
 
 namespace app {
@@ -65,7 +66,7 @@ void Checkpoint::refuse(const Json& was) const {
   throw scenes::InputError(
       fmt::format("{} is of a run that was stopped and differs in (was -> would be)\n  {}\nNothing "
                   "was deleted. --fresh begins anew.",
-                  file_.string(), fmt::join(differences, "\n  ")));
+                  file_.string(), scenes::joined(differences, "\n  ")));
 }
 
 void Checkpoint::pass(const Members& members) {

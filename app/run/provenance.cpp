@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/base/shell.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -36,7 +37,7 @@ std::string commandOf(const RunRecord& record, const std::string& frames) {
   line += fmt::format(" --quality {} --size {}x{}", picture.value("quality", std::string()),
                       picture.value("width", 0), picture.value("height", 0));
   const auto overlays = picture.value("asked_overlays", std::vector<std::string>());
-  if (!overlays.empty()) line += fmt::format(" --overlays {}", fmt::join(overlays, ","));
+  if (!overlays.empty()) line += fmt::format(" --overlays {}", scenes::joined(overlays, ","));
   if (picture.contains("print_width")) {
     line += fmt::format(" --print-width {}", picture.value("print_width", 0.0));
   }

@@ -14,6 +14,7 @@
 #include "app/run/frame_folder.h"
 #include "app/run/frame_range.h"
 #include "app/run/painter.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -41,7 +42,7 @@ void openFolder(const FrameFolder& frames, const RenderJob& job, RenderResult& r
   } else if (frames.count() > 0) {
     if (!earlier) refuse(frames, "no readable run.json tells what they show.");
     refuse(frames, fmt::format("of a run that differs in (was -> would be)\n  {}",
-                               fmt::join(differencesOf(*earlier, result.record), "\n  ")));
+                               scenes::joined(differencesOf(*earlier, result.record), "\n  ")));
   }
   frames.removeLeftovers();
 }

@@ -10,6 +10,7 @@
 #include "app/base/output_file.h"
 #include "app/run/frame_folder.h"
 #include "app/run/frame_range.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -98,9 +99,9 @@ namespace {
 void takeRecords(const std::vector<Written>& shards, RunRecord& record) {
   for (const Written& from : shards) {
     if (!from.record.sameFrames(record)) {
-      throw scenes::InputError(fmt::format("{} is of a run that differs in (was -> would be)\n  {}",
-                                           from.folder.string(),
-                                           fmt::join(differencesOf(from.record, record), "\n  ")));
+      throw scenes::InputError(fmt::format(
+          "{} is of a run that differs in (was -> would be)\n  {}", from.folder.string(),
+          scenes::joined(differencesOf(from.record, record), "\n  ")));
     }
     takeRecord(from, record);
   }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/study/accuracy.h"
+#include "scenes/joined.h"
 #include "scenes/read/value.h"
 
 namespace app {
@@ -179,7 +180,7 @@ Study accuracyStudy(const StudyOptions& options, const fs::path& folder) {
     for (const auto& method : m.results.study.methods) methods.push_back(method.name);
     study.listing +=
         fmt::format("{:<24} {}{}\n{:<24}   {}\n", m.results.study.name, m.results.study.title,
-                    m.results.study.quick ? " (quick)" : "", "", fmt::join(methods, " "));
+                    m.results.study.quick ? " (quick)" : "", "", scenes::joined(methods, " "));
   }
   planTasks(options, *state, study);
   study.run = [state, quick = options.quick](std::size_t task, Store& store) {

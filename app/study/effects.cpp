@@ -9,6 +9,7 @@
 
 #include "app/run/step_clock.h"
 #include "app/study/study.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -136,8 +137,8 @@ bool measureScene(const std::string& word, const StudyOptions& options, Store& s
   const scenes::Scene scene = scenes::readScene(word, overrides);
   const EffectEffort effort = stepEffort(options);
   const int steps = std::max(2, std::min(effort.steps, scene.frameCount() - 1));
-  const std::string inputs = hashInputs({scene.text, fmt::format("{}", fmt::join(overrides, "\n")),
-                                         fmt::format("{}", effort.repeats.most)});
+  const std::string inputs = hashInputs(
+      {scene.text, scenes::joined(overrides, "\n"), fmt::format("{}", effort.repeats.most)});
   const std::vector<EffectTrial> trials = effectTrials(results.effects);
   std::vector<Run> runs;
   bool areThere = true;

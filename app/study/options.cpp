@@ -4,8 +4,9 @@
 #include <cmath>
 #include <memory>
 
-#include "app/study/accuracy.h"
 #include "app/base/numbers.h"
+#include "app/study/accuracy.h"
+#include "scenes/joined.h"
 #include "scenes/study/study_option.h"
 
 namespace app {
@@ -46,7 +47,7 @@ bool measureTrial(const StudyOption& option, bool quick, Store& store, TrialResu
       const Run run = runOf(study, method, {}, key);
       result.step = fmt::format("h = {} s, {}", numberText(run.h), key.text());
       const auto trace =
-          store.findOr(key, hashInputs({inputs, fmt::format("{}", fmt::join(choice.set, "\n"))}),
+          store.findOr(key, hashInputs({inputs, scenes::joined(choice.set, "\n")}),
                        [&] { return measurePoint(study, run, truth->trace, effortOf(quick)); });
       if (!trace) return false;
       (with ? result.with : result.without) = *trace;

@@ -8,6 +8,7 @@
 
 #include "app/base/csv.h"
 #include "app/base/numbers.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -131,7 +132,7 @@ Divergence compareRuns(const RunSource& a, const RunSource& b) {
 std::string divergeText(const RunSource& a, const RunSource& b, const Divergence& d) {
   std::string text = sourceText("A", a) + sourceText("B", b);
   if (!d.inputs.empty()) {
-    text += fmt::format("A -> B, they differ in\n  {}\n", fmt::join(d.inputs, "\n  "));
+    text += fmt::format("A -> B, they differ in\n  {}\n", scenes::joined(d.inputs, "\n  "));
   }
   if (d.first < 0) {
     text += fmt::format("the states are the same in all {} frames{}\n", d.frames,

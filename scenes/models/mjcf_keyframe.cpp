@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "physics/base/rotation.h"
+#include "scenes/joined.h"
 #include "scenes/models/mjcf.h"
 
 namespace scenes {
@@ -122,7 +123,7 @@ void readKeyframes(Mjcf& mjcf, const std::string& wanted) {
     if (keys.empty()) return;
     return mjcf.survey.remark(
         fmt::format("starts as it is drawn; --set keyframe={} starts in that <key>",
-                    fmt::join(names, " | ")),
+                    joined(names, " | ")),
         keys[0]->place);
   }
   const auto found = std::find(names.begin(), names.end(), wanted);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "scenes/joined.h"
+
 namespace scenes {
 namespace {
 
@@ -49,7 +51,7 @@ void ModelSurvey::compare() {
   for (const auto& root : roots_) compare(*root);
   for (const auto& [tag, found] : attributes_) {
     const auto& [names, places] = found;
-    const std::string what = fmt::format("not read: {} of <{}>", fmt::join(names, ", "), tag);
+    const std::string what = fmt::format("not read: {} of <{}>", joined(names, ", "), tag);
     for (const Place& place : places) remark(what, place);
   }
   attributes_.clear();

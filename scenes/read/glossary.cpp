@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/joined.h"
 #include "scenes/read/read_value.h"
 
 namespace scenes {
@@ -98,8 +99,6 @@ std::string rangeWord(const physics::Field& field) {
   return above;
 }
 
-std::string choiceWord(std::span<const char* const> choices) {
-  return fmt::format("{}", fmt::join(choices, " | "));
-}
+std::string choiceWord(std::span<const char* const> choices) { return joined(choices, " | "); }
 
 }  // namespace scenes

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "physics/base/rotation.h"
+#include "scenes/joined.h"
 #include "scenes/read/bvh.h"
 #include "scenes/read/ragdoll_words.h"
 #include "scenes/read/read_body.h"
@@ -70,7 +71,7 @@ std::vector<int> readJoints(TableReader& reader, const physics::Skeleton& skelet
     reader.failHere(
         fmt::format("expected 'joints', bone = \"joint\": no bone has the name of one "
                     "of the file's, {}",
-                    fmt::join(known, ", ")));
+                    joined(known, ", ")));
   }
   return joints;
 }

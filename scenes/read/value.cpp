@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <span>
+
+#include "scenes/joined.h"
 
 namespace scenes {
 namespace {
@@ -86,12 +89,10 @@ std::vector<std::string> splitKey(const std::string& key, const std::string& set
 std::size_t indexOf(const Value& array, const std::vector<std::string>& parts, std::size_t& k) {
   if (isIndex(parts[k])) return std::stoul(parts[k]);
   for (std::size_t end = parts.size(); end > k; --end) {
-    const std::string joined =
-        fmt::format("{}", fmt::join(parts.begin() + static_cast<std::ptrdiff_t>(k),
-                                    parts.begin() + static_cast<std::ptrdiff_t>(end), "."));
+    const std::string word = joined(std::span(parts).subspan(k, end - k), ".");
     for (std::size_t i = 0; i < array.items.size(); ++i) {
       const Value* name = array.items[i].find("name");
-      if (name == nullptr || name->text != joined) continue;
+      if (name == nullptr || name->text != word) continue;
       k = end - 1;
       return i;
     }
@@ -245,9 +246,10 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
 std::string nearestOrAll(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string nearest = didYouMean(word, candidates);
   if (!nearest.empty() || candidates.empty()) return nearest;
-  const auto last = candidates.end() - 1;
-  if (last == candidates.begin()) return "; expected " + *last;
-  return fmt::format("; expected {} or {}", fmt::join(candidates.begin(), last, ", "), *last);
+  const std::string& last = candidates.back();
+  if (candidates.size() == 1) return "; expected " + last;
+  const auto others = std::span(candidates).first(candidates.size() - 1);
+  return fmt::format("; expected {} or {}", joined(others, ", "), last);
 }
 
 }  // namespace scenes

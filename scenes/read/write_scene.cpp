@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "scenes/joined.h"
 #include "scenes/read/recipe.h"
 
 namespace scenes {
@@ -54,7 +55,7 @@ class Writer {
       case Value::Kind::kArray: {
         std::vector<std::string> items;
         for (const Value& item : value.items) items.push_back(text(item));
-        return fmt::format("[{}]", fmt::join(items, ", "));
+        return fmt::format("[{}]", joined(items, ", "));
       }
       case Value::Kind::kBoolean:
         return value.boolean ? "true" : "false";
@@ -83,7 +84,7 @@ class Writer {
     for (const Member& member : table.members) {
       members.push_back(fmt::format("{} = {}", keyText(member.key), text(member.value)));
     }
-    return members.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(members, ", "));
+    return members.empty() ? "{}" : fmt::format("{{ {} }}", joined(members, ", "));
   }
 
   std::string fileFromHere(const Value& value) const {
