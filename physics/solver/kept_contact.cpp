@@ -65,6 +65,12 @@ void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
   fresh.twist = fresh.step = 0;
 }
 
+// Its surfaces are where the collider told them to be, and it has as many points as these: within
+// the step it may have come to others.
+bool isAsBefore(const KeptContact& old, const Found& found) {
+  return !found.isNew && old.carried && old.count == found.manifold->count;
+}
+
 constexpr int kLeastContacts = 32;  // of a thread
 
 // Whether each is of the pair that it was of.
@@ -91,7 +97,7 @@ void keepAll(std::span<const KeptContact> previous, std::span<const Found> found
       const Manifold& m = *found[i].manifold;
       while (old != previous.end() && old->key < m.pair) ++old;
       const bool goesOn = old != previous.end() && old->key == m.pair;
-      if (goesOn && !found[i].isNew && old->carried) {
+      if (goesOn && isAsBefore(*old, found[i])) {
         now[i] = *old;
         continue;
       }
@@ -112,7 +118,7 @@ void keep(std::span<const Found> found, const Bodies& bodies, Workers& workers,
   }
   workers.forEachChunk(static_cast<int>(found.size()), kLeastContacts, [&](int from, int to) {
     for (int i = from; i < to; ++i) {
-      if (!found[i].isNew && contacts[i].carried) continue;
+      if (isAsBefore(contacts[i], found[i])) continue;
       const KeptContact old = contacts[i];
       take(*found[i].manifold, bodies, contacts[i]);
       match(old, contacts[i]);
