@@ -60,8 +60,10 @@ bool reaches(const Bounds& bounds, const Item& plane) {
   return n.dot(lowest - plane.x) <= plane.solid.offset;
 }
 
-// Ordered as the items are: by body, then part. Low bits are left for the sides of a pair.
+// Bits of a pair's key: for the place of each of its two items, and for the sides of the pair.
 constexpr int kItemBits = 28, kSideBits = 8;
+
+// Ordered as the items are: by body, then part.
 std::uint64_t pairKey(int p, int q) {
   return static_cast<std::uint64_t>(p) << (kItemBits + kSideBits) | static_cast<std::uint64_t>(q)
                                                                         << kSideBits;

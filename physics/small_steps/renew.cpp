@@ -121,6 +121,7 @@ void SmallSteps::Impl::renew(const Model& w, const Batch& batch, ContactBlock& b
   }
 }
 
+// The lanes whose bodies go far past each other.
 void SmallSteps::Impl::noteSliding(Batch& batch) const {
   batch.sliding.clear();
   if (sliding.empty()) return;
