@@ -109,6 +109,20 @@ void JointPack<W>::pushAlone(int l, JointResponse::Body& touched,
   }
 }
 
+namespace {
+
+// to -= scaled of, in lane l
+template <int R, int C, int W, class Row>
+void takeAway(const Num<W>* scaled, int l, const Row& of, Row& to) {
+  for (int r = 0; r < R; ++r) {
+    auto row = to.row(r).eval();
+    for (int c = 0; c < C; ++c) row -= scaled[r * C + c].v[l] * of.row(c);
+    to.row(r) = row;
+  }
+}
+
+}  // namespace
+
 // L^-1 of that, and D^-1.
 template <int W>
 void JointPack<W>::eliminate(int l, std::span<JointResponse::Entry> entries) {
@@ -131,10 +145,13 @@ void JointPack<W>::eliminate(int l, std::span<JointResponse::Entry> entries) {
       const JointBelow& below = topology_->below[column.start + usedBelow_[column.start + u]];
       if (below.to >= topology_->tailStart) continue;
       auto& to = entries[entryOf_[below.to]].of;
-      for (int r = 0; r < topology_->shapes[below.to].size; ++r) {
-        for (int c = 0; c < size; ++c) {
-          to.row(r) -= scaled_[below.at + r * size + c].v[l] * entry.of.row(c);
-        }
+      const auto* scaled = &scaled_[below.at];
+      if (topology_->shapes[below.to].size == 1) {
+        size == 1 ? takeAway<1, 1>(scaled, l, entry.of, to)
+                  : takeAway<1, 3>(scaled, l, entry.of, to);
+      } else {
+        size == 1 ? takeAway<3, 1>(scaled, l, entry.of, to)
+                  : takeAway<3, 3>(scaled, l, entry.of, to);
       }
     }
   }

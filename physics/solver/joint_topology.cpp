@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "physics/solver/sparse_pattern.h"
+#include "physics/solver/elimination_order.h"
 
 namespace physics {
 namespace {
@@ -51,24 +51,26 @@ Meetings meetingsOf(const std::vector<JointShape>& shapes, int bodyCount) {
   return at;
 }
 
-// A minimum-degree order of these rows.
-std::vector<int> orderOf(const std::vector<int>& rows, std::size_t count, const Meetings& at) {
-  if (rows.empty()) return {};
-  std::vector<int> place(count, -1), result;
-  const int size = static_cast<int>(rows.size());
-  std::vector<std::array<int, 2>> entries;
-  for (int k = 0; k < size; ++k) {
-    place[rows[k]] = k;
-    entries.push_back({k, k});
+// Of these rows.
+std::vector<int> orderOf(const std::vector<int>& rows, const std::vector<JointShape>& shapes,
+                         const Meetings& at) {
+  std::vector<int> place(shapes.size(), -1), sizes;
+  for (const int i : rows) {
+    place[i] = static_cast<int>(sizes.size());
+    sizes.push_back(shapes[i].size);
   }
+  std::vector<std::set<int>> meets(rows.size());
   for (const auto& list : at) {
     for (const auto& [i, bi] : list) {
       for (const auto& [j, bj] : list) {
-        if (place[j] >= 0 && place[i] > place[j]) entries.push_back({place[i], place[j]});
+        if (i != j && place[i] >= 0 && place[j] >= 0) meets[place[i]].insert(place[j]);
       }
     }
   }
-  for (const int k : leastDegreeOrder(entries)) result.push_back(rows[k]);
+  std::vector<std::vector<int>> sorted;
+  for (const std::set<int>& of : meets) sorted.emplace_back(of.begin(), of.end());
+  std::vector<int> result;
+  for (const int k : EliminationOrder(std::move(sorted), sizes).find()) result.push_back(rows[k]);
   return result;
 }
 
@@ -107,9 +109,9 @@ Order eliminationOrder(const std::vector<JointShape>& shapes, const Meetings& at
   std::vector<int> all(shapes.size()), inner, limits;
   std::iota(all.begin(), all.end(), 0);
   for (const int i : all) (isLimit(shapes[i]) ? limits : inner).push_back(i);
-  Order together{orderOf(all, shapes.size(), at), static_cast<int>(shapes.size())};
+  Order together{orderOf(all, shapes, at), static_cast<int>(shapes.size())};
   if (limits.empty()) return together;
-  Order last{orderOf(inner, shapes.size(), at), static_cast<int>(inner.size())};
+  Order last{orderOf(inner, shapes, at), static_cast<int>(inner.size())};
   last.rows.insert(last.rows.end(), limits.begin(), limits.end());
   const double most =
       kTailWork * workOf(together.rows, shapes, at, std::numeric_limits<double>::infinity());

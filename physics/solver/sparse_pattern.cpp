@@ -32,10 +32,6 @@ std::vector<int> orderOf(const Matrix& pattern) {
 
 }  // namespace
 
-std::vector<int> leastDegreeOrder(std::span<const std::array<int, 2>> entries) {
-  return orderOf(patternOf(entries));
-}
-
 void SparsePattern::layOut(std::span<const std::array<int, 2>> entries) {
   Matrix pattern = patternOf(entries);
   const std::vector<int> order = orderOf(pattern);

@@ -9,10 +9,6 @@
 
 namespace physics {
 
-// The rows of a symmetric matrix in an order of least degree, by (row, column) of its lower
-// triangle, in any order; every diagonal entry is among them.
-std::vector<int> leastDegreeOrder(std::span<const std::array<int, 2>> entries);
-
 class SparsePattern {
  public:
   // (row, column) of the lower triangle, in the order that their values will be given in; what is
