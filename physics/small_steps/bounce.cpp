@@ -44,11 +44,13 @@ void SmallSteps::Impl::bounce(Model& w, Batch& batch, double h) {
       if (sum > 0) pair.points[k].frictionTotal = pair.points[k].normalTotal / sum * friction;
     }
   });
+  const int slots = static_cast<int>(batch.slots.size());
+  for (int s = 1; s < slots; ++s) tellBody(batch, s);
   for (const BodyId i : batch.bodies) b.inverse[i].inertia = masses[i].inertia;
-  std::vector<Vec3> before(batch.slots.size());
-  for (std::size_t s = 1; s < batch.slots.size(); ++s) before[s] = b.pose[batch.slots[s]].x;
+  std::vector<Vec3> before(slots);
+  for (int s = 1; s < slots; ++s) before[s] = b.pose[batch.slots[s]].x;
   restitute(batch.impacts, b, w.flight(h));
-  for (std::size_t s = 1; s < batch.slots.size(); ++s) {  // what was flown after the hit
+  for (int s = 1; s < slots; ++s) {  // what was flown after the hit
     const Vec3 flown = b.pose[batch.slots[s]].x - before[s];
     for (int k = 0; k < 3; ++k) batch.motions[s].du[k] += static_cast<float>(flown[k]);
   }

@@ -148,6 +148,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
       batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
       batch.inverses[s] = inverseOf(batch.masses[s]);
       batch.motions[s] = {};
+      if (batch.inLanes()) takeRoot(batch, s);
     }
   });
   const FrictionAt friction = frictionAt(w, batch);

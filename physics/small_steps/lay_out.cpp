@@ -51,6 +51,7 @@ void SmallSteps::Batch::layNothing() {
   stages.clear();
   blocks.clear();
   sliding.clear();
+  lanes.clear();
 }
 
 // What one contact moves: a body, or all of an articulation that responds.
@@ -177,6 +178,8 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
   const int levels = levelsOf(static_cast<int>(batch.contacts.size()));
   const GroupOrder order{levels};
   takeSlots(w, batch, levels);
+  const bool isAlone = !batch.isMixed() && batch.softPairs.empty() && !stepsAccurately(w, batch);
+  batch.lanes.resize(isAlone ? batch.slots.size() / BodyBlock::kLanes + 1 : 0);
   takeResponses(batch);
   groupContacts(w, batch, levels);
   const auto contactsOf = [&](int group) {

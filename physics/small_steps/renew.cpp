@@ -10,8 +10,6 @@
 namespace physics {
 namespace {
 
-constexpr double kFar = 0.05;  // rad: as of what is solved at once, rows are taken as straight
-
 // It turns without a change of arms and inertia.
 bool isRound(const Bodies& b, BodyId i) {
   return std::holds_alternative<Sphere>(b.shape[i]) && isIsotropic(b.inertia[i]);
@@ -76,7 +74,7 @@ bool SmallSteps::Impl::turnsNormal(const ContactBlock& block, int l,
 // no other.
 bool SmallSteps::Impl::findTurned(Model& w, Batch& batch) const {
   const bool isAsked = stepsAccurately(w, batch) && !batch.isLost;
-  const double far = isAsked ? std::min(kFar, allowedError(w)) : kFar;
+  const double far = isAsked ? std::min(kStraightTurn, allowedError(w)) : kStraightTurn;
   std::atomic<bool> some = false;
   batch.turned.resize(batch.motions.size());
   forEachBody(w, batch, [&](BodyId i, int s) {
@@ -157,7 +155,7 @@ bool SmallSteps::Impl::lookAtSliding(const Model& w, ContactBlock& block, int l)
   for (int k = 0; k < c.count; ++k) now.lambda[k] = block.point[k].lambda[l];
   physics::renew(found, w.bodies, now);
   physics::renew(found, w.bodies, c);
-  const bool goesOn = n.cross(normalOf(c, w.bodies.pose)).norm() < kFar;
+  const bool goesOn = n.cross(normalOf(c, w.bodies.pose)).norm() < kStraightTurn;
   for (int k = 0; k < block.points; ++k) {
     block.point[k].lambda[l] = goesOn && k < c.count ? static_cast<float>(now.lambda[k]) : 0;
   }
@@ -179,17 +177,21 @@ void SmallSteps::Impl::lookAtSliding(Model& w, Batch& batch) {
 }
 
 void SmallSteps::Impl::renewTurned(Model& w, Batch& batch) {
-  if (!batch.blocks.empty() && findTurned(w, batch)) renewRows(w, batch);
+  if (batch.blocks.empty()) return;
+  if (batch.inLanes() ? batch.someTurned : findTurned(w, batch)) renewRows(w, batch);
 }
 
 // Of the bodies that turned.
 void SmallSteps::Impl::renewRows(Model& w, Batch& batch) {
   for (std::size_t s = 1; s < batch.slots.size(); ++s) {
     if (!batch.turned[s]) continue;
+    const int slot = static_cast<int>(s);
+    tellBody(batch, slot);
     batch.masses[s] = laneMassOf(masses[batch.slots[s]]);
     batch.inverses[s] = inverseOf(batch.masses[s]);
     startRows(batch.motions[s]);
-    toLane(batch, static_cast<int>(s));
+    toLane(batch, slot);
+    seeBody(batch, slot);
   }
   forEachGroup(w, batch, [&](int from, int to) {
     for (int i = from; i < to; ++i) renew(w, batch, batch.blocks[i]);

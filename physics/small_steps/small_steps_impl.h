@@ -6,6 +6,7 @@
 //   responses.cpp     contacts that see what joints make of what they give
 //   deep.cpp          overlaps that take more than a few substeps
 //   contact_motion.cpp bodies into these lanes, and back
+//   body_lanes.cpp    the same of those that contacts alone hold, eight at a time
 //   take_turns.cpp    contacts and joints in turns, and that no energy comes of it
 //   given.cpp         what contacts give bodies, by an accuracy
 //   renew.cpp         rows anew of what has turned far, or goes far past each other
@@ -29,6 +30,7 @@
 
 #include "physics/accurate/extrapolation.h"
 #include "physics/model/model.h"
+#include "physics/small_steps/body_block.h"
 #include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps.h"
 #include "physics/solver/articulation.h"
@@ -130,12 +132,15 @@ struct SmallSteps::Batch {
   std::vector<KeptStart> kept;      // of `bodies`, where joints may have to make their step again
   std::vector<std::pair<int, int>> sliding;  // blocks and lanes: bodies go far past each other
   std::vector<char> turned;  // by slot: so far that its rows are to be prepared anew
-  std::vector<int> partOf;   // by slot, where islands step by an accuracy: which of them
+  bool someTurned = false;
+  std::vector<BodyBlock> lanes;  // by slot, of what contacts alone hold; empty: it is by itself
+  std::vector<int> partOf;       // by slot, where islands step by an accuracy: which of them
 
   void layNothing();  // there are no contacts
   bool takesTurns() const { return joined == Joined::kTakesTurns; }
   // More than contacts of rigid bodies.
   bool isMixed() const { return !articulations.empty() || isSoft(); }
+  bool inLanes() const { return !lanes.empty(); }
   bool isSoft() const { return !deformables.empty() || !softRows.empty(); }
 };
 
@@ -373,7 +378,18 @@ struct SmallSteps::Impl {
   bool isHalved(const Batch& batch, BodyId i) const;
   void giveOtherHalf(const Model& w, const Batch& batch, double h);
   void predictBody(Model& w, const Batch& batch, BodyId i, bool first);
-  void predictTurn(Model& w, BodyId i, double h, double kick, bool first);
+  void predictTurn(Model& w, BodyId i, double h, double kick);
+  void takeMass(const Model& w, BodyId i);
+  template <class F>
+  static void forEachBodyBlock(Model& w, Batch& batch, F&& f);
+  void startBody(const Model& w, BodyId i, BodyBlock& b, int l) const;
+  void predictLanes(Model& w, Batch& batch, bool first);
+  static void giveLanes(Model& w, Batch& batch);
+  static void displaceLanes(Model& w, Batch& batch);
+  static void endLanes(Model& w, Batch& batch);
+  static void takeRoot(Batch& batch, int slot);
+  void tellBody(const Batch& batch, int slot);
+  static void seeBody(Batch& batch, int slot);
   LaneBodies lanesOf(Batch& batch) const;
   void toLane(Batch& batch, int slot);
   void fromLane(Batch& batch, int slot);
@@ -405,6 +421,7 @@ struct SmallSteps::Impl {
   void sweepDeformables(Model& w, Batch& batch, double h);
   void solveVelocities(Model& w, Batch& batch, double h);
   void sweepSoft(Batch& batch);
+  void takeVelocities(Model& w, Batch& batch);
   void substep(Model& w, Batch& batch, double h, StepReport& report);
   bool findTurned(Model& w, Batch& batch) const;
   bool turnsNormal(const ContactBlock& block, int l, const std::vector<LaneMotion>& motions,

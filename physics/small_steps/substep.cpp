@@ -15,9 +15,6 @@ namespace {
 // back: what turns the other way in each substep has a mean of none, and stays damped; of a swing a
 // tenth of its damping is left, without which chains under a heavy end gain energy.
 constexpr double kNewSpin = 0.25, kTurnedBack = 0.9;
-// rad: what turns further in a substep is damped as well and, where no joint holds it, turned as it
-// would turn freely: to second order in the step it would gain energy.
-constexpr double kResolvedTurn = 0.1;
 
 // omega and half a substep on, by I^-1 (-omega x I omega).
 Vec3 meanSpin(const Mat3& inertia, const Mat3& inverse, const Vec3& omega, double h) {
@@ -43,6 +40,7 @@ void SmallSteps::Impl::predict(Model& w, Batch& batch, bool first) {
     for (const BodyId i : articulations[k].bodies()) stiffness[i].setZero();
   }
   batch.joints.stiffen(stiffness);
+  if (batch.inLanes()) return predictLanes(w, batch, first);
   forEachBody(w, batch, [&](BodyId i, int) { predictBody(w, batch, i, first); });
 }
 
@@ -73,10 +71,9 @@ void SmallSteps::Impl::predictBody(Model& w, const Batch& batch, BodyId i, bool 
   Displacement& m = moved[i];
   Velocity& v = b.velocity[i];
   b.start[i] = b.pose[i];
-  if (first) inertiaOf[i] = kindOfInertia(b, i);
+  if (first) takeMass(w, i);
   if (inertiaOf[i] == Inertia::kGiven) {
     m = {h * v.v, h * v.w};
-    masses[i] = {};
     return;
   }
   const double kick = isHalved(batch, i) ? 0.5 * h : h;
@@ -84,29 +81,35 @@ void SmallSteps::Impl::predictBody(Model& w, const Batch& batch, BodyId i, bool 
   const bool isLoaded = !w.loaded.empty();
   if (isLoaded) v.v += kick * b.inverse[i].m * w.loads[i].force;
   m.u = h * v.v;
-  if (first) masses[i].inverse = b.inverse[i].m;
-  if (inertiaOf[i] == Inertia::kNone) {
+  if (inertiaOf[i] == Inertia::kNone ||
+      (inertiaOf[i] == Inertia::kRound && !isLoaded && articulationOf[i] < 0)) {
     m.theta = h * v.w;
-    masses[i].inertia.setZero();
     return;
   }
-  if (inertiaOf[i] == Inertia::kRound && !first && !isLoaded && articulationOf[i] < 0) {
-    m.theta = h * v.w;  // masses[i] holds what it held
-    return;
-  }
-  predictTurn(w, i, h, kick, first);
+  predictTurn(w, i, h, kick);
 }
 
-void SmallSteps::Impl::predictTurn(Model& w, BodyId i, double h, double kick, bool first) {
+// At the start of a step.
+void SmallSteps::Impl::takeMass(const Model& w, BodyId i) {
+  const Bodies& b = w.bodies;
+  inertiaOf[i] = kindOfInertia(b, i);
+  masses[i] = {};
+  if (inertiaOf[i] == Inertia::kGiven) return;
+  masses[i].inverse = b.inverse[i].m;
+  if (inertiaOf[i] == Inertia::kNone) return;
+  const bool isRound = inertiaOf[i] == Inertia::kRound;
+  const Mat3 r = isRound ? Mat3::Identity() : b.pose[i].q.toRotationMatrix();
+  masses[i].inertia = worldInertia(r, b.inverseInertia[i]);
+}
+
+void SmallSteps::Impl::predictTurn(Model& w, BodyId i, double h, double kick) {
   Bodies& b = w.bodies;
   Displacement& m = moved[i];
   Velocity& v = b.velocity[i];
   const bool isRound = inertiaOf[i] == Inertia::kRound;
   const Mat3 r = isRound ? Mat3::Identity() : b.pose[i].q.toRotationMatrix();
-  // After the first substep it stands there: of the pose that the last one ended with.
-  const Mat3 inverse = !first ? masses[i].inertia : worldInertia(r, b.inverseInertia[i]);
+  const Mat3 inverse = masses[i].inertia;  // of the pose that the last substep ended with
   v.w += kick * (inverse * w.loads[i].torque);
-  masses[i].inertia = inverse;
   Vec3 omega = v.w;
   const bool isResolved = h * h * omega.squaredNorm() < kResolvedTurn * kResolvedTurn;
   if (articulationOf[i] >= 0) {
@@ -153,6 +156,7 @@ void SmallSteps::Impl::lookAgain(Model& w, Batch& batch, double h) {
 
 // X <- X + u. Contacts alone leave the lanes as they are, but where a turn of inertia changes them.
 void SmallSteps::Impl::displaceAll(Model& w, Batch& batch) {
+  if (batch.inLanes()) return displaceLanes(w, batch);
   const bool inLanes = !batch.blocks.empty(), alone = inLanes && !batch.isMixed();
   const bool isGiven = giveExactly(w, batch);
   forEachBody(w, batch, [&](BodyId i, int slot) {
@@ -334,8 +338,19 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   if (count > 0 && batch.takesTurns() && !learning) boundWork(w, batch, stage);
 }
 
+// v = u / h
+void SmallSteps::Impl::takeVelocities(Model& w, Batch& batch) {
+  if (batch.inLanes()) return endLanes(w, batch);
+  const bool alone = !batch.blocks.empty() && !batch.isMixed(), isGiven = giveExactly(w, batch);
+  forEachBody(w, batch, [&](BodyId i, int slot) {
+    if (inertiaOf[i] == Inertia::kGiven) return;
+    if (alone && !isGiven) fromLane(batch, slot);
+    const double rate = 1 / length[i];
+    w.bodies.velocity[i] = {rate * moved[i].u, rate * moved[i].theta};
+  });
+}
+
 void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& report) {
-  Bodies& b = w.bodies;
   solvePositions(w, batch, h);
   profileScope("motion");
   displaceAll(w, batch);
@@ -345,14 +360,7 @@ void SmallSteps::Impl::substep(Model& w, Batch& batch, double h, StepReport& rep
   giveOtherHalf(w, batch, h);
   solveVelocities(w, batch, h);
   profileScope("motion");
-  const bool alone = !batch.blocks.empty() && !batch.isMixed(), isGiven = giveExactly(w, batch);
-  forEachBody(w, batch, [&](BodyId i, int slot) {
-    if (inertiaOf[i] == Inertia::kGiven) return;
-    if (alone && !isGiven) fromLane(batch, slot);
-    const double rate = 1 / length[i];
-    b.velocity[i].v = rate * moved[i].u;
-    b.velocity[i].w = rate * moved[i].theta;
-  });
+  takeVelocities(w, batch);
   bounce(w, batch, h);
   profileScope("");
   const auto touching = static_cast<std::int64_t>(batch.contacts.size() + batch.softRows.size());

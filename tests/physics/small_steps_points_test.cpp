@@ -4,6 +4,7 @@
 #include "physics/make/cloth.h"
 #include "physics/make/rope.h"
 #include "physics/make/soft_body.h"
+#include "physics/world/measure.h"
 #include "tests/physics/stage.h"
 
 namespace physics::testing {

@@ -1,0 +1,198 @@
+// Bodies that contacts alone hold, eight at a time: into the lanes of body_block.h and back. They
+// are there for the substeps of a step; poses and velocities are everybody's after each.
+#include <Eigen/Core>
+#include <algorithm>
+#include <atomic>
+
+#include "physics/motion/free_motion.h"
+#include "physics/small_steps/small_steps_impl.h"
+
+namespace physics {
+
+const BodyKernels& bodyKernels() {
+  static const BodyKernels& chosen = __builtin_cpu_supports("avx512f") ? kBodyKernelsAvx512
+                                     : __builtin_cpu_supports("avx2")  ? kBodyKernelsAvx2
+                                                                       : kBodyKernelsSse2;
+  return chosen;
+}
+
+void freeSpin(const double (&inertia)[3], const double (&q)[4], double h, double (&w)[3]) {
+  const Quat turn(q[0], q[1], q[2], q[3]);
+  const Vec3 own = turn.conjugate() * Vec3(w[0], w[1], w[2]);
+  const Vec3 mean = turn * freeTurn({inertia[0], inertia[1], inertia[2]}, own, h).mean;
+  for (int k = 0; k < 3; ++k) w[k] = mean[k];
+}
+
+namespace {
+
+using BodyLanes = BodyBlock::Lanes;
+constexpr int kBodyLanes = BodyBlock::kLanes;
+
+void put(BodyLanes* to, int l, const Vec3& v) {
+  for (int k = 0; k < 3; ++k) to[k].v[l] = v[k];
+}
+
+Vec3 at(const BodyLanes* of, int l) { return {of[0].v[l], of[1].v[l], of[2].v[l]}; }
+
+void putSymmetric(BodyLanes* to, int l, const Mat3& m) {
+  const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
+  for (int k = 0; k < 6; ++k) to[k].v[l] = entries[k];
+}
+
+Mat3 symmetricAt(const BodyLanes* of, int l) {
+  const double xy = of[3].v[l], xz = of[4].v[l], yz = of[5].v[l];
+  Mat3 m;
+  m << of[0].v[l], xy, xz, xy, of[1].v[l], yz, xz, yz, of[2].v[l];
+  return m;
+}
+
+void seeLane(const LaneMotion& motion, BodyBlock& b, int l) {
+  for (int k = 0; k < 3; ++k) {
+    b.nowU[k].v[l] = motion.u[k];
+    b.nowTurn[k].v[l] = motion.turn[k];
+  }
+}
+
+// What contacts know is what the body knows that they do.
+void tellLane(BodyBlock& b, int l, LaneMotion& motion) {
+  for (int k = 0; k < 3; ++k) {
+    b.knownU[k].v[l] = motion.u[k] = static_cast<float>(b.nowU[k].v[l]);
+    b.knownTurn[k].v[l] = motion.turn[k] = static_cast<float>(b.nowTurn[k].v[l]);
+  }
+}
+
+}  // namespace
+
+// f(block, its number, the first and the end of its lanes), dealt to threads.
+template <class F>
+void SmallSteps::Impl::forEachBodyBlock(Model& w, Batch& batch, F&& f) {
+  const int slots = static_cast<int>(batch.slots.size());
+  w.workers.forEachChunk(static_cast<int>(batch.lanes.size()), kLeastBodies / kBodyLanes,
+                         [&](int from, int to) {
+                           for (int i = from; i < to; ++i) {
+                             f(batch.lanes[i], i * kBodyLanes, i == 0 ? 1 : 0,
+                               std::min(kBodyLanes, slots - i * kBodyLanes));
+                           }
+                         });
+}
+
+// At the start of a step: what stays.
+void SmallSteps::Impl::startBody(const Model& w, BodyId i, BodyBlock& b, int l) const {
+  const Bodies& bodies = w.bodies;
+  const Inertia kind = inertiaOf[i];
+  b.moves.v[l] = kind != Inertia::kGiven;
+  b.isTurned.v[l] = kind == Inertia::kRound || kind == Inertia::kOther;
+  b.turns.v[l] = kind == Inertia::kOther;
+  b.h.v[l] = length[i];
+  b.rate.v[l] = 1 / length[i];
+  b.inverseMass.v[l] = bodies.inverse[i].m;
+  put(b.inertia, l, bodies.inertia[i]);
+  put(b.inverseInertia, l, bodies.inverseInertia[i]);
+  putSymmetric(b.inverse, l, masses[i].inertia);
+}
+
+void SmallSteps::Impl::predictLanes(Model& w, Batch& batch, bool first) {
+  Bodies& bodies = w.bodies;
+  const Vec3 g = w.settings.gravity.value_or(Vec3::Zero());
+  const double gravity[3] = {g.x(), g.y(), g.z()};
+  const bool isLoaded = !w.loaded.empty();
+  forEachBodyBlock(w, batch, [&](BodyBlock& b, int slot, int from, int to) {
+    if (first) b = {};
+    for (int l = from; l < to; ++l) {
+      const BodyId i = batch.slots[slot + l];
+      if (first) {
+        takeMass(w, i);
+        startBody(w, i, b, l);
+      }
+      const Pose& pose = bodies.pose[i];
+      bodies.start[i] = pose;
+      put(b.x, l, pose.x);
+      b.q[0].v[l] = pose.q.w();
+      put(b.q + 1, l, pose.q.vec());
+      put(b.v, l, bodies.velocity[i].v);
+      put(b.w, l, bodies.velocity[i].w);
+      if (!isLoaded) continue;
+      put(b.force, l, w.loads[i].force);
+      put(b.torque, l, w.loads[i].torque);
+    }
+    bodyKernels().predict(&b, 1, gravity, isLoaded);
+    for (int l = from; l < to; ++l) {
+      bodies.velocity[batch.slots[slot + l]] = {at(b.v, l), at(b.w, l)};
+    }
+  });
+}
+
+// Once their rows are prepared.
+void SmallSteps::Impl::takeRoot(Batch& batch, int slot) {
+  BodyBlock& b = batch.lanes[slot / kBodyLanes];
+  for (int k = 0; k < 6; ++k) {
+    b.root[k].v[slot % kBodyLanes] = batch.masses[slot].root[k];
+    b.inverseRoot[k].v[slot % kBodyLanes] = batch.inverses[slot].entries[k];
+  }
+}
+
+void SmallSteps::Impl::giveLanes(Model& w, Batch& batch) {
+  forEachBodyBlock(w, batch, [&](BodyBlock& b, int slot, int from, int to) {
+    bodyKernels().give(&b, 1);
+    for (int l = from; l < to; ++l) tellLane(b, l, batch.motions[slot + l]);
+  });
+}
+
+// X <- X + u, and which have turned so far that their rows are to be prepared anew.
+void SmallSteps::Impl::displaceLanes(Model& w, Batch& batch) {
+  batch.turned.resize(batch.slots.size());
+  std::atomic<bool> some = false;
+  forEachBodyBlock(w, batch, [&](BodyBlock& b, int slot, int from, int to) {
+    for (int l = from; l < to; ++l) {
+      LaneMotion& motion = batch.motions[slot + l];
+      seeLane(motion, b, l);
+      for (int k = 0; k < 3; ++k) {
+        motion.du[k] += motion.u[k];
+        motion.dturn[k] += motion.turn[k];
+        b.sinceRows[k].v[l] = motion.dturn[k];
+      }
+    }
+    bodyKernels().displace(&b, 1);
+    for (int l = from; l < to; ++l) {
+      Pose& pose = w.bodies.pose[batch.slots[slot + l]];
+      pose.x = at(b.x, l);
+      pose.q = Quat(b.q[0].v[l], b.q[1].v[l], b.q[2].v[l], b.q[3].v[l]);
+      tellLane(b, l, batch.motions[slot + l]);
+      batch.turned[slot + l] = b.sinceRows[0].v[l] > kStraightTurn * kStraightTurn;
+      if (batch.turned[slot + l]) some = true;
+    }
+  });
+  batch.someTurned = some;
+}
+
+void SmallSteps::Impl::endLanes(Model& w, Batch& batch) {
+  forEachBodyBlock(w, batch, [&](BodyBlock& b, int slot, int from, int to) {
+    for (int l = from; l < to; ++l) seeLane(batch.motions[slot + l], b, l);
+    bodyKernels().end(&b, 1);
+    for (int l = from; l < to; ++l) {
+      Velocity& velocity = w.bodies.velocity[batch.slots[slot + l]];
+      if (b.moves.v[l] > 0) velocity = {at(b.v, l), at(b.w, l)};
+    }
+  });
+}
+
+// What is only in the lanes.
+void SmallSteps::Impl::tellBody(const Batch& batch, int slot) {
+  if (!batch.inLanes()) return;
+  const BodyBlock& b = batch.lanes[slot / kBodyLanes];
+  const BodyId i = batch.slots[slot];
+  const int l = slot % kBodyLanes;
+  moved[i] = {at(b.u, l), at(b.theta, l)};
+  masses[i].inertia = symmetricAt(b.inverse, l);
+}
+
+// Its rows are prepared anew, and contacts told again what it moves by.
+void SmallSteps::Impl::seeBody(Batch& batch, int slot) {
+  if (!batch.inLanes()) return;
+  takeRoot(batch, slot);
+  BodyBlock& b = batch.lanes[slot / kBodyLanes];
+  seeLane(batch.motions[slot], b, slot % kBodyLanes);
+  tellLane(b, slot % kBodyLanes, batch.motions[slot]);
+}
+
+}  // namespace physics
