@@ -282,7 +282,7 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
   }
   sweepDeformables(w, batch, h);
   profileScope("direct");
-  batch.joints.closePositions(stage, predicted, batch.touches ? kNearlyClosed : kClosed);
+  batch.joints.closePositions(stage, predicted);
   if (count > 0 && batch.isMixed()) toLanes(w, batch);
 }
 

@@ -127,9 +127,8 @@ void JointPacks::tell(const JointStage& stage) {
   forEach([&](auto& pack) { pack.tell(stage); });
 }
 
-void JointPacks::closePositions(const JointStage& stage, std::span<const Displacement> predicted,
-                                double tolerance) {
-  forEach([&](auto& pack) { pack.closePositions(stage, predicted, tolerance); });
+void JointPacks::closePositions(const JointStage& stage, std::span<const Displacement> predicted) {
+  forEach([&](auto& pack) { pack.closePositions(stage, predicted); });
 }
 
 void JointPacks::prepareVelocities(const JointStage& stage) {

@@ -24,9 +24,10 @@ struct Displacement {
   Vec3 u = Vec3::Zero(), theta = Vec3::Zero();
 };
 
-// What joints may be off by before the last step of Newton's, of their arms: joints alone, and
-// where contacts have pushed since and will push again. What is off by more than the latter is not
-// closed.
+// What joints may be off by before the last step of Newton's, of their arms: where more is left the
+// step was too long, and is made again with more substeps. What a taut row of planks is off by by
+// 1e-4 is a sag of 24 mm, and what takes that back is motion. No more substeps to take: up to
+// `kNearlyClosed` it is left as it is.
 inline constexpr double kClosed = 1e-7, kNearlyClosed = 1e-4;
 
 // What impulses on some bodies of an articulation move these by while its joints hold, in the units
@@ -153,8 +154,7 @@ class JointPack {
   void startTurns(const JointStage& stage, const LaneBodies& lanes);
   void followPositions(const LaneBodies& lanes);
   void tell(const JointStage& stage) const;
-  void closePositions(const JointStage& stage, std::span<const Displacement> predicted,
-                      double tolerance);
+  void closePositions(const JointStage& stage, std::span<const Displacement> predicted);
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage, std::span<const double> wanted);
@@ -182,7 +182,7 @@ class JointPack {
   void see(const JointStage& stage, bool first);
   void noteSeen();
   void step();
-  void giveUp(const Num<W>& far, double tolerance);
+  void giveUp(const Num<W>& far);
   void leaveOpen(const JointStage& stage, std::span<const Displacement> predicted);
   bool isBeyondLimit(int lane) const;
   bool hasGap(int lane, double most) const;
@@ -260,9 +260,8 @@ class JointPacks {
   void startTurns(const JointStage& stage, const LaneBodies& lanes);
   void followPositions(const LaneBodies& lanes);
   void tell(const JointStage& stage);
-  // As often as it takes until what is off is `tolerance` of the arms, before another step.
-  void closePositions(const JointStage& stage, std::span<const Displacement> predicted,
-                      double tolerance);
+  // As often as it takes until what is off before another step is kClosed.
+  void closePositions(const JointStage& stage, std::span<const Displacement> predicted);
   // Evaluates at the end of the substep; then, as often as contacts are swept:
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);

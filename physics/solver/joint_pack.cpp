@@ -576,9 +576,9 @@ bool JointPack<W>::hasGap(int l, double most) const {
 // Of lanes that are far, those whose gaps are, where none was open before, take no step that is not
 // looked at: they go to where Newton's left them the least off.
 template <int W>
-void JointPack<W>::giveUp(const Num<W>& far, double tolerance) {
+void JointPack<W>::giveUp(const Num<W>& far) {
   for (int l = 0; l < lanes_; ++l) {
-    given_[l] = far.v[l] > 0 && !apart_[l] && hasGap(l, tolerance);
+    given_[l] = far.v[l] > 0 && !apart_[l] && hasGap(l, kClosed);
     if (!given_[l]) continue;
     if (offOf(l) < steps_.off[l]) noteStep(l, offOf(l));
     goBack(l, 0);
@@ -586,33 +586,34 @@ void JointPack<W>::giveUp(const Num<W>& far, double tolerance) {
   }
 }
 
-// Those of them that are open there: what they move by is no motion, the step was too long, and
-// they stay where they were predicted if they are less off there.
+// Those of them that are open there: the step was too long. What those that are far open move by is
+// no motion, and they stay where they were predicted if they are less off there.
 template <int W>
 void JointPack<W>::leaveOpen(const JointStage& stage, std::span<const Displacement> predicted) {
-  const auto any = [&] {
-    return std::any_of(given_.begin(), given_.end(), [](bool given) { return given; });
+  const auto isAny = [](const std::array<bool, W>& of) {
+    return std::any_of(of.begin(), of.end(), [](bool is) { return is; });
   };
-  if (!any()) return;
+  if (!isAny(given_)) return;
   openAll();
   see(stage, false);
-  for (int l = 0; l < lanes_; ++l) given_[l] = given_[l] && hasGap(l, kNearlyClosed);
-  if (!any()) return;
+  std::array<bool, W> isFar{};
   for (int l = 0; l < lanes_; ++l) {
-    if (given_[l]) goToPredicted(predicted, l);
+    isFar[l] = given_[l] && hasGap(l, kNearlyClosed);
+    if (isFar[l]) goToPredicted(predicted, l);
   }
-  see(stage, false);
-  noteSeen();
-  jointKernels<W>().aimAtErrors(view());
+  if (isAny(isFar)) {
+    see(stage, false);
+    noteSeen();
+    jointKernels<W>().aimAtErrors(view());
+  }
   for (int l = 0; l < lanes_; ++l) {
-    if (given_[l] && !(offOf(l) < steps_.off[l])) goBack(l, 0);
+    if (isFar[l] && !(offOf(l) < steps_.off[l])) goBack(l, 0);
+    apart_[l] = apart_[l] || isFar[l];
   }
   gatherPoses<W>(ids_, stage.pose, bodies_);
   jointKernels<W>().seeLimits(view(), true);
   for (int l = 0; l < lanes_; ++l) {
-    if (!given_[l]) continue;
-    of_[l]->isOpened_ = of_[l]->isOpened_ || !isBeyondLimit(l);
-    apart_[l] = true;
+    if (given_[l]) of_[l]->isOpened_ = of_[l]->isOpened_ || !isBeyondLimit(l);
   }
 }
 
@@ -628,12 +629,12 @@ bool JointPack<W>::isBeyondLimit(int l) const {
   return false;
 }
 
-// Newton's method, until what is off before a step is no more than `tolerance` of the arms. Where
+// Newton's method, until what is off before a step is no more than kClosed. Where
 // rows hardly differ, a step that closes them by a little takes bodies anywhere, and the next one
 // further.
 template <int W>
-void JointPack<W>::closePositions(const JointStage& stage, std::span<const Displacement> predicted,
-                                  double tolerance) {
+void JointPack<W>::closePositions(const JointStage& stage,
+                                  std::span<const Displacement> predicted) {
   const JointKernels<W>& kernels = jointKernels<W>();
   openAll();
   gatherMotion<W>(ids_, stage.moved, bodies_);
@@ -644,10 +645,10 @@ void JointPack<W>::closePositions(const JointStage& stage, std::span<const Displ
     if (k == 0 && !stage.spin.empty()) stale_.fill(true);  // the factor is of arms turned back
     kernels.aimAtErrors(view());
     const Num<W> open = open_;
-    const bool isFar = kernels.findOpen(view(), tolerance), isLast = k == kMostSteps;
+    const bool isFar = kernels.findOpen(view(), kClosed), isLast = k == kMostSteps;
     const Num<W> far = open_;
     open_ = open;
-    if (isFar && isLast) giveUp(far, tolerance);
+    if (isFar && isLast) giveUp(far);
     if (isFar) goBack(far);
     step();
     if (!isFar) break;
