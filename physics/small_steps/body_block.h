@@ -14,11 +14,11 @@ struct BodyBlock {
   // Of the step; 1 or 0. What moves is moved by forces, what is turned by torques, and of what
   // turns the inertia turns with it.
   Lanes moves, isTurned, turns;
-  Lanes h, rate;                                     // of its substep [s], and 1 over that
-  Lanes inverseMass, inertia[3], inverseInertia[3];  // principal
-  // Where it is, how fast, and what acts on it.
-  Lanes x[3], q[4], v[3], w[3], force[3], torque[3];
-  // What it moves by in this substep, and turned by without contacts.
+  Lanes h, rate;                        // of its substep [s], and 1 over that
+  Lanes inertia[3], inverseInertia[3];  // principal
+  Lanes q[4], w[3];                     // and its spin, pushed by loads
+  // What it moves by in this substep, and turned by without contacts. Before predict() u is the
+  // speed, after end() u and theta are speed and spin.
   Lanes u[3], theta[3], spin[3];
   Lanes inverse[6], startInertia[6];  // of the world: now, and M at the substep's start
   // Turns in the units of contacts' lanes: theta = root turn.
@@ -29,14 +29,14 @@ struct BodyBlock {
 };
 
 struct BodyKernels {
-  // u = h v + h^2 M^-1 f, with the inertia at the start.
-  void (*predict)(BodyBlock* blocks, int count, const double (&gravity)[3], bool isLoaded);
+  // u = h v, with the inertia at the start.
+  void (*predict)(BodyBlock* blocks, int count);
   // `nowTurn` of theta, and `nowU`.
   void (*give)(BodyBlock* blocks, int count);
-  // Takes what contacts gave, and X <- X + u; then `nowTurn` of theta where the inertia turned, and
-  // sinceRows[0] is the square of how far it has turned since rows were prepared [rad^2].
+  // Takes what contacts gave, and turns by theta; then `nowTurn` of theta where the inertia turned,
+  // and sinceRows[0] is the square of how far it has turned since rows were prepared [rad^2].
   void (*displace)(BodyBlock* blocks, int count);
-  // Takes what contacts gave; v = u / h.
+  // Takes what contacts gave, and speeds are u / h.
   void (*end)(BodyBlock* blocks, int count);
 };
 

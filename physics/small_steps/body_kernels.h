@@ -96,19 +96,11 @@ Triple<N> meanSpin(const BodyBlock& b, int l, N turns, const Triple<N>& w) {
 }
 
 template <class N>
-void predict(BodyBlock& b, int l, const double (&gravity)[3], bool isLoaded) {
-  const N h = at<N>(b.h, l), kick = h * at<N>(b.moves, l);
-  const Triple<N> g = {all<N>(gravity[0]), all<N>(gravity[1]), all<N>(gravity[2])};
-  Triple<N> v = at3<N>(b.v, l) + g * kick, w = at3<N>(b.w, l);
-  if (isLoaded) {
-    v = v + at3<N>(b.force, l) * (kick * at<N>(b.inverseMass, l));
-    w = w + times(b.inverse, l, at3<N>(b.torque, l)) * kick;
-  }
-  put3(b.v, l, v);
-  put3(b.w, l, w);
-  put3(b.u, l, v * h);
+void predict(BodyBlock& b, int l) {
+  const N h = at<N>(b.h, l), turns = at<N>(b.turns, l);
+  put3(b.u, l, at3<N>(b.u, l) * h);
+  const Triple<N> w = at3<N>(b.w, l);
   Triple<N> theta = w * h;
-  const N turns = at<N>(b.turns, l);
   if (anyPositive(turns)) {
     N q[4], inertia[6];
     takeTurn(b, l, q);
@@ -154,7 +146,6 @@ void turnInertia(BodyBlock& b, int l, N turns, const N (&q)[4]) {
 template <class N>
 void displace(BodyBlock& b, int l) {
   take<N>(b, l);
-  put3(b.x, l, at3<N>(b.x, l) + at3<N>(b.u, l));
   N from[4], e[4], q[4];
   takeTurn(b, l, from);
   exponential(at3<N>(b.theta, l), e);
@@ -173,9 +164,9 @@ void displace(BodyBlock& b, int l) {
 template <class N>
 void end(BodyBlock& b, int l) {
   take<N>(b, l);
-  const N rate = at<N>(b.rate, l), moves = at<N>(b.moves, l);
-  put3(b.v, l, where(moves, at3<N>(b.u, l) * rate, at3<N>(b.v, l)));
-  put3(b.w, l, where(moves, at3<N>(b.theta, l) * rate, at3<N>(b.w, l)));
+  const N rate = at<N>(b.rate, l);
+  put3(b.u, l, at3<N>(b.u, l) * rate);
+  put3(b.theta, l, at3<N>(b.theta, l) * rate);
 }
 
 template <class N, class F>
@@ -186,8 +177,8 @@ void forEachPart(BodyBlock* blocks, int count, F&& f) {
 }
 
 template <class N>
-void predictAll(BodyBlock* blocks, int count, const double (&gravity)[3], bool isLoaded) {
-  forEachPart<N>(blocks, count, [&](BodyBlock& b, int l) { predict<N>(b, l, gravity, isLoaded); });
+void predictAll(BodyBlock* blocks, int count) {
+  forEachPart<N>(blocks, count, [](BodyBlock& b, int l) { predict<N>(b, l); });
 }
 template <class N>
 void giveAll(BodyBlock* blocks, int count) {

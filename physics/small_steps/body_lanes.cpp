@@ -85,40 +85,45 @@ void SmallSteps::Impl::startBody(const Model& w, BodyId i, BodyBlock& b, int l) 
   b.turns.v[l] = kind == Inertia::kOther;
   b.h.v[l] = length[i];
   b.rate.v[l] = 1 / length[i];
-  b.inverseMass.v[l] = bodies.inverse[i].m;
   put(b.inertia, l, bodies.inertia[i]);
   put(b.inverseInertia, l, bodies.inverseInertia[i]);
   putSymmetric(b.inverse, l, masses[i].inertia);
 }
 
-void SmallSteps::Impl::predictLanes(Model& w, Batch& batch, bool first) {
+// Gravity and loads, and where it is.
+void SmallSteps::Impl::pushBody(Model& w, BodyId i, BodyBlock& b, int l) const {
   Bodies& bodies = w.bodies;
-  const Vec3 g = w.settings.gravity.value_or(Vec3::Zero());
-  const double gravity[3] = {g.x(), g.y(), g.z()};
-  const bool isLoaded = !w.loaded.empty();
+  const Pose& pose = bodies.pose[i];
+  Velocity& v = bodies.velocity[i];
+  bodies.start[i] = pose;
+  const double kick = length[i] * b.moves.v[l];
+  if (w.settings.gravity) v.v += kick * *w.settings.gravity;
+  if (!w.loaded.empty()) {
+    v.v += kick * bodies.inverse[i].m * w.loads[i].force;
+    v.w += kick * (symmetricAt(b.inverse, l) * w.loads[i].torque);
+  }
+  b.q[0].v[l] = pose.q.w();
+  put(b.q + 1, l, pose.q.vec());
+  put(b.u, l, v.v);
+  put(b.w, l, v.w);
+}
+
+// Before the first substep rows are not prepared yet: contacts are told then.
+void SmallSteps::Impl::predictLanes(Model& w, Batch& batch, bool first) {
   forEachBodyBlock(w, batch, [&](BodyBlock& b, int slot, int from, int to) {
-    if (first) b = {};
+    if (first && to - from < kBodyLanes) b = {};
     for (int l = from; l < to; ++l) {
       const BodyId i = batch.slots[slot + l];
       if (first) {
         takeMass(w, i);
         startBody(w, i, b, l);
       }
-      const Pose& pose = bodies.pose[i];
-      bodies.start[i] = pose;
-      put(b.x, l, pose.x);
-      b.q[0].v[l] = pose.q.w();
-      put(b.q + 1, l, pose.q.vec());
-      put(b.v, l, bodies.velocity[i].v);
-      put(b.w, l, bodies.velocity[i].w);
-      if (!isLoaded) continue;
-      put(b.force, l, w.loads[i].force);
-      put(b.torque, l, w.loads[i].torque);
+      pushBody(w, i, b, l);
     }
-    bodyKernels().predict(&b, 1, gravity, isLoaded);
-    for (int l = from; l < to; ++l) {
-      bodies.velocity[batch.slots[slot + l]] = {at(b.v, l), at(b.w, l)};
-    }
+    bodyKernels().predict(&b, 1);
+    if (first) return;
+    bodyKernels().give(&b, 1);
+    for (int l = from; l < to; ++l) tellLane(b, l, batch.motions[slot + l]);
   });
 }
 
@@ -131,6 +136,7 @@ void SmallSteps::Impl::takeRoot(Batch& batch, int slot) {
   }
 }
 
+// What bodies move by before contacts have pushed.
 void SmallSteps::Impl::giveLanes(Model& w, Batch& batch) {
   forEachBodyBlock(w, batch, [&](BodyBlock& b, int slot, int from, int to) {
     bodyKernels().give(&b, 1);
@@ -155,7 +161,7 @@ void SmallSteps::Impl::displaceLanes(Model& w, Batch& batch) {
     bodyKernels().displace(&b, 1);
     for (int l = from; l < to; ++l) {
       Pose& pose = w.bodies.pose[batch.slots[slot + l]];
-      pose.x = at(b.x, l);
+      pose.x += at(b.u, l);
       pose.q = Quat(b.q[0].v[l], b.q[1].v[l], b.q[2].v[l], b.q[3].v[l]);
       tellLane(b, l, batch.motions[slot + l]);
       batch.turned[slot + l] = b.sinceRows[0].v[l] > kStraightTurn * kStraightTurn;
@@ -171,7 +177,7 @@ void SmallSteps::Impl::endLanes(Model& w, Batch& batch) {
     bodyKernels().end(&b, 1);
     for (int l = from; l < to; ++l) {
       Velocity& velocity = w.bodies.velocity[batch.slots[slot + l]];
-      if (b.moves.v[l] > 0) velocity = {at(b.v, l), at(b.w, l)};
+      if (b.moves.v[l] > 0) velocity = {at(b.u, l), at(b.theta, l)};
     }
   });
 }

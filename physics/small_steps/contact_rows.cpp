@@ -160,6 +160,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
     if (isDeep(batch, blocks)) someDeep = true;
   });
   noteSliding(batch);
+  if (batch.inLanes()) giveLanes(w, batch);
   batch.isDeep = someDeep;
   if (batch.isDeep) noteDeep(batch);
 }

@@ -383,6 +383,7 @@ struct SmallSteps::Impl {
   template <class F>
   static void forEachBodyBlock(Model& w, Batch& batch, F&& f);
   void startBody(const Model& w, BodyId i, BodyBlock& b, int l) const;
+  void pushBody(Model& w, BodyId i, BodyBlock& b, int l) const;
   void predictLanes(Model& w, Batch& batch, bool first);
   static void giveLanes(Model& w, Batch& batch);
   static void displaceLanes(Model& w, Batch& batch);

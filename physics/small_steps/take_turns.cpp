@@ -50,7 +50,7 @@ void SmallSteps::Impl::tellBodies(Model& w, Batch& batch, const JointStage& stag
 // none.
 void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const JointStage& stage) {
   profileScope("contact");
-  batch.inLanes() ? giveLanes(w, batch) : toLanes(w, batch);
+  if (!batch.inLanes()) toLanes(w, batch);
   respond(batch);
   startGiving(w, batch);
   warmStartContacts(w, batch);
