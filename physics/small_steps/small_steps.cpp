@@ -36,7 +36,8 @@ std::size_t SmallSteps::bytes() const {
   std::size_t sum = (impl_->contacts.capacity() + impl_->before.capacity()) * sizeof(KeptContact);
   for (const Batch& batch : impl_->batches) {
     sum += batch.blocks.capacity() * sizeof(ContactBlock) +
-           batch.motions.capacity() * sizeof(LaneMotion);
+           batch.motions.capacity() * sizeof(LaneMotion) +
+           batch.lanes.capacity() * sizeof(BodyBlock);
   }
   return sum;
 }
