@@ -101,8 +101,8 @@ class Collider {
   // Signed distance [m] (negative: depth) of two bodies at these poses; +infinity for a pair
   // without shapes. For measures and tests, not for the step.
   double distance(BodyId a, const Pose& poseA, BodyId b, const Pose& poseB) const;
-  double thickness(
-      BodyId body) const;  // smallest full extent of its parts; +infinity: plane, or none
+  // Smallest full extent of its parts; +infinity: a plane, or none.
+  double thickness(BodyId body) const;
 
   // Work done so far, for measures: narrow-phase evaluations and pairs now watched.
   struct Counts {

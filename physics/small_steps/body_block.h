@@ -30,14 +30,14 @@ struct BodyBlock {
 
 struct BodyKernels {
   // u = h v, with the inertia at the start.
-  void (*predict)(BodyBlock* blocks, int count);
+  void (*predict)(BodyBlock& bodies);
   // `nowTurn` of theta, and `nowU`.
-  void (*give)(BodyBlock* blocks, int count);
+  void (*give)(BodyBlock& bodies);
   // Takes what contacts gave, and turns by theta; then `nowTurn` of theta where the inertia turned,
   // and sinceRows[0] is the square of how far it has turned since rows were prepared [rad^2].
-  void (*displace)(BodyBlock* blocks, int count);
+  void (*displace)(BodyBlock& bodies);
   // Takes what contacts gave, and speeds are u / h.
-  void (*end)(BodyBlock* blocks, int count);
+  void (*end)(BodyBlock& bodies);
 };
 
 const BodyKernels& bodyKernels();  // chosen once, by what the processor has

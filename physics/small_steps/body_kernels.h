@@ -169,33 +169,14 @@ void end(BodyBlock& b, int l) {
   put3(b.theta, l, at3<N>(b.theta, l) * rate);
 }
 
-template <class N, class F>
-void forEachPart(BodyBlock* blocks, int count, F&& f) {
-  for (int i = 0; i < count; ++i) {
-    for (int l = 0; l < BodyBlock::kLanes; l += N::kWidth) f(blocks[i], l);
-  }
-}
-
-template <class N>
-void predictAll(BodyBlock* blocks, int count) {
-  forEachPart<N>(blocks, count, [](BodyBlock& b, int l) { predict<N>(b, l); });
-}
-template <class N>
-void giveAll(BodyBlock* blocks, int count) {
-  forEachPart<N>(blocks, count, [](BodyBlock& b, int l) { give<N>(b, l); });
-}
-template <class N>
-void displaceAll(BodyBlock* blocks, int count) {
-  forEachPart<N>(blocks, count, [](BodyBlock& b, int l) { displace<N>(b, l); });
-}
-template <class N>
-void endAll(BodyBlock* blocks, int count) {
-  forEachPart<N>(blocks, count, [](BodyBlock& b, int l) { end<N>(b, l); });
+template <class N, void (*kStage)(BodyBlock&, int)>
+void inParts(BodyBlock& b) {
+  for (int l = 0; l < BodyBlock::kLanes; l += N::kWidth) kStage(b, l);
 }
 
 template <class N>
 constexpr BodyKernels bodyTableOf() {
-  return {predictAll<N>, giveAll<N>, displaceAll<N>, endAll<N>};
+  return {inParts<N, predict<N>>, inParts<N, give<N>>, inParts<N, displace<N>>, inParts<N, end<N>>};
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "physics/motion/free_motion.h"
 #include "physics/small_steps/small_steps_impl.h"
+#include "physics/solver/joint_lanes.h"
 
 namespace physics {
 
@@ -25,21 +26,7 @@ void freeSpin(const double (&inertia)[3], const double (&q)[4], double h, double
 
 namespace {
 
-using BodyLanes = BodyBlock::Lanes;
-constexpr int kBodyLanes = BodyBlock::kLanes;
-
-void put(BodyLanes* to, int l, const Vec3& v) {
-  for (int k = 0; k < 3; ++k) to[k].v[l] = v[k];
-}
-
-Vec3 at(const BodyLanes* of, int l) { return {of[0].v[l], of[1].v[l], of[2].v[l]}; }
-
-void putSymmetric(BodyLanes* to, int l, const Mat3& m) {
-  const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
-  for (int k = 0; k < 6; ++k) to[k].v[l] = entries[k];
-}
-
-Mat3 symmetricAt(const BodyLanes* of, int l) {
+Mat3 symmetricAt(const BodyBlock::Lanes* of, int l) {
   const double xy = of[3].v[l], xz = of[4].v[l], yz = of[5].v[l];
   Mat3 m;
   m << of[0].v[l], xy, xz, xy, of[1].v[l], yz, xz, yz, of[2].v[l];
@@ -67,11 +54,11 @@ void tellLane(BodyBlock& b, int l, LaneMotion& motion) {
 template <class F>
 void SmallSteps::Impl::forEachBodyBlock(Model& w, Batch& batch, F&& f) {
   const int slots = static_cast<int>(batch.slots.size());
-  w.workers.forEachChunk(static_cast<int>(batch.lanes.size()), kLeastBodies / kBodyLanes,
+  w.workers.forEachChunk(static_cast<int>(batch.lanes.size()), kLeastBodies / BodyBlock::kLanes,
                          [&](int from, int to) {
                            for (int i = from; i < to; ++i) {
-                             f(batch.lanes[i], i * kBodyLanes, i == 0 ? 1 : 0,
-                               std::min(kBodyLanes, slots - i * kBodyLanes));
+                             f(batch.lanes[i], i * BodyBlock::kLanes, i == 0 ? 1 : 0,
+                               std::min(BodyBlock::kLanes, slots - i * BodyBlock::kLanes));
                            }
                          });
 }
@@ -85,9 +72,9 @@ void SmallSteps::Impl::startBody(const Model& w, BodyId i, BodyBlock& b, int l) 
   b.turns.v[l] = kind == Inertia::kOther;
   b.h.v[l] = length[i];
   b.rate.v[l] = 1 / length[i];
-  put(b.inertia, l, bodies.inertia[i]);
-  put(b.inverseInertia, l, bodies.inverseInertia[i]);
-  putSymmetric(b.inverse, l, masses[i].inertia);
+  write(b.inertia, l, bodies.inertia[i]);
+  write(b.inverseInertia, l, bodies.inverseInertia[i]);
+  writeSymmetric(b.inverse, l, masses[i].inertia);
 }
 
 // Gravity and loads, and where it is.
@@ -102,16 +89,15 @@ void SmallSteps::Impl::pushBody(Model& w, BodyId i, BodyBlock& b, int l) const {
     v.v += kick * bodies.inverse[i].m * w.loads[i].force;
     v.w += kick * (symmetricAt(b.inverse, l) * w.loads[i].torque);
   }
-  b.q[0].v[l] = pose.q.w();
-  put(b.q + 1, l, pose.q.vec());
-  put(b.u, l, v.v);
-  put(b.w, l, v.w);
+  writeTurn(b.q, l, pose.q);
+  write(b.u, l, v.v);
+  write(b.w, l, v.w);
 }
 
 // Before the first substep rows are not prepared yet: contacts are told then.
 void SmallSteps::Impl::predictLanes(Model& w, Batch& batch, bool first) {
   forEachBodyBlock(w, batch, [&](BodyBlock& b, int slot, int from, int to) {
-    if (first && to - from < kBodyLanes) b = {};
+    if (first && to - from < BodyBlock::kLanes) b = {};
     for (int l = from; l < to; ++l) {
       const BodyId i = batch.slots[slot + l];
       if (first) {
@@ -120,26 +106,26 @@ void SmallSteps::Impl::predictLanes(Model& w, Batch& batch, bool first) {
       }
       pushBody(w, i, b, l);
     }
-    bodyKernels().predict(&b, 1);
+    bodyKernels().predict(b);
     if (first) return;
-    bodyKernels().give(&b, 1);
+    bodyKernels().give(b);
     for (int l = from; l < to; ++l) tellLane(b, l, batch.motions[slot + l]);
   });
 }
 
 // Once their rows are prepared.
 void SmallSteps::Impl::takeRoot(Batch& batch, int slot) {
-  BodyBlock& b = batch.lanes[slot / kBodyLanes];
+  BodyBlock& b = batch.lanes[slot / BodyBlock::kLanes];
   for (int k = 0; k < 6; ++k) {
-    b.root[k].v[slot % kBodyLanes] = batch.masses[slot].root[k];
-    b.inverseRoot[k].v[slot % kBodyLanes] = batch.inverses[slot].entries[k];
+    b.root[k].v[slot % BodyBlock::kLanes] = batch.masses[slot].root[k];
+    b.inverseRoot[k].v[slot % BodyBlock::kLanes] = batch.inverses[slot].entries[k];
   }
 }
 
 // What bodies move by before contacts have pushed.
 void SmallSteps::Impl::giveLanes(Model& w, Batch& batch) {
   forEachBodyBlock(w, batch, [&](BodyBlock& b, int slot, int from, int to) {
-    bodyKernels().give(&b, 1);
+    bodyKernels().give(b);
     for (int l = from; l < to; ++l) tellLane(b, l, batch.motions[slot + l]);
   });
 }
@@ -158,11 +144,11 @@ void SmallSteps::Impl::displaceLanes(Model& w, Batch& batch) {
         b.sinceRows[k].v[l] = motion.dturn[k];
       }
     }
-    bodyKernels().displace(&b, 1);
+    bodyKernels().displace(b);
     for (int l = from; l < to; ++l) {
       Pose& pose = w.bodies.pose[batch.slots[slot + l]];
-      pose.x += at(b.u, l);
-      pose.q = Quat(b.q[0].v[l], b.q[1].v[l], b.q[2].v[l], b.q[3].v[l]);
+      pose.x += read(b.u, l);
+      pose.q = readTurn(b.q, l);
       tellLane(b, l, batch.motions[slot + l]);
       batch.turned[slot + l] = b.sinceRows[0].v[l] > kStraightTurn * kStraightTurn;
       if (batch.turned[slot + l]) some = true;
@@ -174,10 +160,10 @@ void SmallSteps::Impl::displaceLanes(Model& w, Batch& batch) {
 void SmallSteps::Impl::endLanes(Model& w, Batch& batch) {
   forEachBodyBlock(w, batch, [&](BodyBlock& b, int slot, int from, int to) {
     for (int l = from; l < to; ++l) seeLane(batch.motions[slot + l], b, l);
-    bodyKernels().end(&b, 1);
+    bodyKernels().end(b);
     for (int l = from; l < to; ++l) {
       Velocity& velocity = w.bodies.velocity[batch.slots[slot + l]];
-      if (b.moves.v[l] > 0) velocity = {at(b.u, l), at(b.theta, l)};
+      if (b.moves.v[l] > 0) velocity = {read(b.u, l), read(b.theta, l)};
     }
   });
 }
@@ -185,10 +171,10 @@ void SmallSteps::Impl::endLanes(Model& w, Batch& batch) {
 // What is only in the lanes.
 void SmallSteps::Impl::tellBody(const Batch& batch, int slot) {
   if (!batch.inLanes()) return;
-  const BodyBlock& b = batch.lanes[slot / kBodyLanes];
+  const BodyBlock& b = batch.lanes[slot / BodyBlock::kLanes];
   const BodyId i = batch.slots[slot];
-  const int l = slot % kBodyLanes;
-  moved[i] = {at(b.u, l), at(b.theta, l)};
+  const int l = slot % BodyBlock::kLanes;
+  moved[i] = {read(b.u, l), read(b.theta, l)};
   masses[i].inertia = symmetricAt(b.inverse, l);
 }
 
@@ -196,9 +182,9 @@ void SmallSteps::Impl::tellBody(const Batch& batch, int slot) {
 void SmallSteps::Impl::seeBody(Batch& batch, int slot) {
   if (!batch.inLanes()) return;
   takeRoot(batch, slot);
-  BodyBlock& b = batch.lanes[slot / kBodyLanes];
-  seeLane(batch.motions[slot], b, slot % kBodyLanes);
-  tellLane(b, slot % kBodyLanes, batch.motions[slot]);
+  BodyBlock& b = batch.lanes[slot / BodyBlock::kLanes];
+  seeLane(batch.motions[slot], b, slot % BodyBlock::kLanes);
+  tellLane(b, slot % BodyBlock::kLanes, batch.motions[slot]);
 }
 
 }  // namespace physics

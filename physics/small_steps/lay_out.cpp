@@ -179,7 +179,8 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
   const GroupOrder order{levels};
   takeSlots(w, batch, levels);
   const bool isAlone = !batch.isMixed() && batch.softPairs.empty() && !stepsAccurately(w, batch);
-  batch.lanes.resize(isAlone ? batch.slots.size() / BodyBlock::kLanes + 1 : 0);
+  constexpr std::size_t kBodies = BodyBlock::kLanes;
+  batch.lanes.resize(isAlone ? (batch.slots.size() + kBodies - 1) / kBodies : 0);
   takeResponses(batch);
   groupContacts(w, batch, levels);
   const auto contactsOf = [&](int group) {

@@ -5,10 +5,10 @@
 
 namespace physics {
 
-EliminationOrder::EliminationOrder(std::vector<std::vector<int>> meets, std::span<const int> sizes)
+EliminationOrder::EliminationOrder(std::span<const std::set<int>> meets, std::span<const int> sizes)
     : rows_(meets.size()), mark_(meets.size(), 0) {
   for (std::size_t i = 0; i < meets.size(); ++i) {
-    rows_[i].meets = std::move(meets[i]);
+    rows_[i].meets.assign(meets[i].begin(), meets[i].end());
     rows_[i].size = sizes[i];
   }
 }

@@ -16,8 +16,8 @@ namespace physics {
 
 class EliminationOrder {
  public:
-  // By row: those that it meets, sorted, itself not among them; and how many numbers it stands for.
-  EliminationOrder(std::vector<std::vector<int>> meets, std::span<const int> sizes);
+  // By row: those that it meets, itself not among them; and how many numbers it stands for.
+  EliminationOrder(std::span<const std::set<int>> meets, std::span<const int> sizes);
 
   std::vector<int> find();
 

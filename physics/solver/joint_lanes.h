@@ -23,6 +23,24 @@ void write(Num<W>* to, int l, const Vec3& v) {
 }
 
 template <int W>
+Quat readTurn(const Num<W>* from, int l) {
+  return Quat(from[0].v[l], from[1].v[l], from[2].v[l], from[3].v[l]);
+}
+
+template <int W>
+void writeTurn(Num<W>* to, int l, const Quat& q) {
+  to[0].v[l] = q.w();
+  write(to + 1, l, q.vec());
+}
+
+// xx yy zz xy xz yz
+template <int W>
+void writeSymmetric(Num<W>* to, int l, const Mat3& m) {
+  const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
+  for (int k = 0; k < 6; ++k) to[k].v[l] = entries[k];
+}
+
+template <int W>
 void writeRows(Num<W>* to, int l, const Mat3& m, int rows) {
   for (int r = 0; r < rows; ++r) {
     for (int k = 0; k < 3; ++k) to[3 * r + k].v[l] = m(r, k);
@@ -43,10 +61,8 @@ template <int W>
 void gatherMasses(std::span<const BodyId> ids, std::span<const JointMass> masses,
                   std::span<JointBody<W>> bodies) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const Mat3& m = masses[ids[i]].inertia;
-    const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
     bodies[i / W].inverseMass.v[i % W] = masses[ids[i]].inverse;
-    for (int k = 0; k < 6; ++k) bodies[i / W].inertia[k].v[i % W] = entries[k];
+    writeSymmetric(bodies[i / W].inertia, i % W, masses[ids[i]].inertia);
   }
 }
 
@@ -54,10 +70,8 @@ template <int W>
 void gatherPoses(std::span<const BodyId> ids, std::span<const Pose> pose,
                  std::span<JointBody<W>> bodies) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const Pose& from = pose[ids[i]];
-    const double q[4] = {from.q.w(), from.q.x(), from.q.y(), from.q.z()};
-    write(bodies[i / W].x, i % W, from.x);
-    for (int k = 0; k < 4; ++k) bodies[i / W].q[k].v[i % W] = q[k];
+    write(bodies[i / W].x, i % W, pose[ids[i]].x);
+    writeTurn(bodies[i / W].q, i % W, pose[ids[i]].q);
   }
 }
 
@@ -75,10 +89,8 @@ template <int W>
 void scatterPoses(std::span<const BodyId> ids, int lanes, std::span<const JointBody<W>> bodies,
                   std::span<Pose> pose) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const auto& q = bodies[i].q;
     for (int l = 0; l < lanes; ++l) {
-      pose[ids[i * W + l]] = {read(bodies[i].x, l),
-                              Quat(q[0].v[l], q[1].v[l], q[2].v[l], q[3].v[l])};
+      pose[ids[i * W + l]] = {read(bodies[i].x, l), readTurn(bodies[i].q, l)};
     }
   }
 }

@@ -110,10 +110,8 @@ JointView<W> JointPack<W>::view() {
 template <int W>
 void JointPack<W>::restorePoses(const JointStage& stage) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto& q = bodies_[i].startQ;
     for (int l = 0; l < lanes_; ++l) {
-      stage.pose[ids_[i * W + l]] = {read(bodies_[i].startX, l),
-                                     Quat(q[0].v[l], q[1].v[l], q[2].v[l], q[3].v[l])};
+      stage.pose[ids_[i * W + l]] = {read(bodies_[i].startX, l), readTurn(bodies_[i].startQ, l)};
     }
   }
 }
@@ -629,9 +627,8 @@ bool JointPack<W>::isBeyondLimit(int l) const {
   return false;
 }
 
-// Newton's method, until what is off before a step is no more than kClosed. Where
-// rows hardly differ, a step that closes them by a little takes bodies anywhere, and the next one
-// further.
+// Newton's method, until what is off before a step is no more than kClosed. Where rows hardly
+// differ, a step that closes them by a little takes bodies anywhere, and the next one further.
 template <int W>
 void JointPack<W>::closePositions(const JointStage& stage,
                                   std::span<const Displacement> predicted) {

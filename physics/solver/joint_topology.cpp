@@ -67,10 +67,8 @@ std::vector<int> orderOf(const std::vector<int>& rows, const std::vector<JointSh
       }
     }
   }
-  std::vector<std::vector<int>> sorted;
-  for (const std::set<int>& of : meets) sorted.emplace_back(of.begin(), of.end());
   std::vector<int> result;
-  for (const int k : EliminationOrder(std::move(sorted), sizes).find()) result.push_back(rows[k]);
+  for (const int k : EliminationOrder(meets, sizes).find()) result.push_back(rows[k]);
   return result;
 }
 

@@ -60,7 +60,6 @@ BodyBlock anyBlock(unsigned seed) {
 
 // A substep in which contacts push and turn each body by the same.
 void step(const BodyKernels& kernels, std::vector<BodyBlock>& blocks) {
-  const int count = static_cast<int>(blocks.size());
   const auto forEachLane = [&](auto&& f) {
     for (BodyBlock& b : blocks) {
       for (int l = 0; l < BodyBlock::kLanes; ++l) f(b, l);
@@ -75,13 +74,13 @@ void step(const BodyKernels& kernels, std::vector<BodyBlock>& blocks) {
     put(b.nowU, l, at(b.nowU, l) + 1e-3 * Vec3(1, 2, 3));
     put(b.nowTurn, l, at(b.nowTurn, l) + 1e-3 * Vec3(3, -1, 2));
   };
-  kernels.predict(blocks.data(), count);
-  kernels.give(blocks.data(), count);
+  for (BodyBlock& b : blocks) kernels.predict(b);
+  for (BodyBlock& b : blocks) kernels.give(b);
   forEachLane(push);
   forEachLane([](BodyBlock& b, int l) { put(b.sinceRows, l, at(b.nowTurn, l)); });
-  kernels.displace(blocks.data(), count);
+  for (BodyBlock& b : blocks) kernels.displace(b);
   forEachLane(know);
-  kernels.end(blocks.data(), count);
+  for (BodyBlock& b : blocks) kernels.end(b);
 }
 
 TEST(BodyKernels, GiveTheSameBytesInAllRegisters) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace physics {
@@ -43,9 +42,7 @@ Graph anyOf(int count, int edges) {
 }
 
 std::vector<int> orderOf(const Graph& graph, const std::vector<int>& sizes) {
-  std::vector<std::vector<int>> meets;
-  for (const auto& of : graph) meets.emplace_back(of.begin(), of.end());
-  return EliminationOrder(std::move(meets), sizes).find();
+  return EliminationOrder(graph, sizes).find();
 }
 
 long fillsOf(const Graph& graph, const std::vector<int>& sizes, int i) {
