@@ -52,7 +52,7 @@ auto sameOf(const PlannedIslands& island) {
   const physics::AccuracyReport steps =
       island.steps ? island.steps->steps : physics::AccuracyReport{};
   return std::tuple(p.bodies, p.flies, p.trees, p.loops, p.joints, p.ropes, p.cloths, p.meshes,
-                    p.links, p.contacts, p.softContacts, p.substeps, p.sweeps, p.law,
+                    p.links, p.contacts, p.atOnce, p.softContacts, p.substeps, p.sweeps, p.law,
                     steps.accepted, steps.order);
 }
 

@@ -65,6 +65,7 @@ std::string lineOf(const PlannedIslands& island) {
   if (p.cloths > 0) add(many(p.cloths, "mesh with links at once", "meshes with links at once"));
   if (p.meshes > 0) add(many(p.meshes, "mesh swept", "meshes swept"));
   if (p.contacts > 0) add(many(p.contacts, "contact", "contacts"));
+  if (p.atOnce) add("their loads at once");
   if (p.softContacts > 0) add(fmt::format("{} of points", p.softContacts));
   if (island.steps) return text + "; " + accuracyText(*island.steps);
   text += fmt::format("; {}{}", many(p.substeps, "substep", "substeps"), wordsOf(p.law).text);
@@ -117,6 +118,7 @@ Json islandsJson(const Plan& plan) {
                    {"meshes", p.meshes},
                    {"links", p.links},
                    {"contacts", p.contacts},
+                   {"loads_at_once", p.atOnce},
                    {"soft_contacts", p.softContacts},
                    {"substeps", p.substeps},
                    {"sweeps", p.sweeps},

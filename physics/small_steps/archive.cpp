@@ -16,8 +16,8 @@ void SmallSteps::archive(Archive& a, Model& w) {
     i.makeRoom(bodies);
     if (knows) i.learn(w);
   }
-  a(i.contacts, sleeping, i.fresh, i.substeps, i.sweeps, i.asked, i.askedSweeps, i.law, i.meanSpins,
-    i.oneRowErrs, i.missed, i.accelerated);
+  a(i.contacts, sleeping, i.fresh, i.substeps, i.sweeps, i.asked, i.askedSweeps, i.askedAtOnce,
+    i.law, i.meanSpins, i.oneRowErrs, i.missed, i.accelerated);
   for (StepChoice& choice : i.choices) a(choice);
   if (!knows) return;  // what is not known is made anew
   a(i.responding, i.finer);

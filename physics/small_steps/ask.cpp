@@ -16,9 +16,6 @@ constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 1.0 / kLeastSwept;
 // On the average of the load that is 0.38 of a cube's radius over (n/2)^2, n/2 being how often the
 // contacts carry the weight of an island: a quarter of it.
 constexpr double kLargestDrawn = 0.1;
-// Of its weight, what a body with joints may carry while contacts and joints take turns: a round
-// brings about as much as it weighs up to the joints, and a substep has three.
-constexpr double kMostCarried = 4;
 // What the last velocity sweep may change, of the energy that an island has in g h^2, so that what
 // stands comes to rest, and of that in motion of what touches past each other: the way of that is
 // of first order.
@@ -60,13 +57,14 @@ void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch) {
   const Bodies& b = w.bodies;
   const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
   for (const BodyId i : batch.bodies) {
-    energy[i] = change[i] = changeBefore[i] = 0;
+    energy[i] = whole[i] = change[i] = changeBefore[i] = 0;
     load[i] = sag[i] = drawn[i] = carried[i] = weight[i] = 0;
   }
   for (const BodyId i : batch.bodies) {
     if (b.motion[i] != Motion::kDynamic) continue;
     const double fall = g * length[i] * length[i];
     energy[islands[i]] += kRest * b.mass[i] * fall * fall;
+    whole[islands[i]] += b.mass[i] * fall * fall;
     weight[islands[i]] += b.mass[i] * fall;
   }
 }
@@ -117,6 +115,7 @@ void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch) {
       change[of.root] += of.change;
       changeBefore[of.root] += of.changeBefore;
       energy[of.root] += of.energy;
+      whole[of.root] += of.energy / kMotion;
       load[of.root] += of.load;
       sag[of.root] += of.sag;
       drawn[of.root] += of.drawn;
@@ -197,6 +196,16 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch, double h)
   }
 }
 
+// Where sweeps do not get there. What they have yet to bring shrinks by the same share r from one
+// to the next; it is change r / (1 - sqrt r)^2 of energy, and more than all that the island has.
+bool SmallSteps::Impl::asksAtOnce(const Batch& batch, BodyId root) const {
+  if (learning || !batch.inLanes()) return false;
+  if (batch.isAtOnce) return newton.gain() > kMotion * whole[root];
+  if (batch.sweeps < 2 || !uneven[root] || !(change[root] > kMotion * whole[root])) return false;
+  const double r = change[root] / changeBefore[root], slow = 1 - std::sqrt(r);
+  return !(slow > 0) || change[root] * r > slow * slow * whole[root];
+}
+
 // Sag goes with h^2; what the last sweep changed tells whether an island is at rest.
 void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   weighJoints(w, batch, h);
@@ -213,6 +222,7 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
       want(i, substepsFor(substeps[root], sagOf(root)), SubstepLaw::kSag);
     }
     askedSweeps[i] = batch.sweeps;
+    askedAtOnce[i] = root == i && asksAtOnce(batch, root);
     if (learning) {
       askedSweeps[i] = most;  // they go down where the motion allows it
     } else if (change[root] > energy[root]) {

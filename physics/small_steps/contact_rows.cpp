@@ -159,6 +159,11 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
     contactKernels().prepare(blocks.data(), to - from, batch.masses.data(), friction);
     if (isDeep(batch, blocks)) someDeep = true;
   });
+  batch.isAtOnce = batch.isAtOnce && batch.inLanes();
+  if (batch.isAtOnce) {
+    newton.layOut(batch.blocks, batch.masses);
+    batch.isAtOnce = newton.fill() <= kMostFillAtOnce;
+  }
   noteSliding(batch);
   if (batch.inLanes()) giveLanes(w, batch);
   batch.isDeep = someDeep;
@@ -197,12 +202,13 @@ void SmallSteps::Impl::takeOver(const Bodies& b, const ContactBlock& block, int 
 // What carries less than it gives way about would stand off the surface: where a load has gone,
 // what is held goes down with it, in the same parts.
 //
-// Substeps do not follow what springs of jointed bodies are drawn by: a hand that carries a heap
-// would stand in the floor by F h^2 / m of its own mass. What such a contact carries from step to
-// step beyond the weight of the lighter body becomes what it gives way about, so that it comes to
-// where the bodies just touch: the method of multipliers, by a share that is small beside the rate
-// of the springs. But what still carries the same goes on: bodies that stood when the world began
-// would give way by their own weight, 0.06 mm at 120 substeps a second.
+// Substeps do not follow what springs of jointed bodies are drawn by, nor those of light ones under
+// heavy ones: a hand that carries a heap would stand in the floor by F h^2 / m of its own mass.
+// What such a contact carries from step to step beyond the weight of the lighter body becomes what
+// it gives way about, so that it comes to where the bodies just touch: the method of multipliers,
+// by a share that is small beside the rate of the springs. But what still carries the same goes on:
+// bodies that stood when the world began would give way by their own weight, 0.06 mm at 120
+// substeps a second.
 void SmallSteps::Impl::holdCarried(const Model& w, const Batch& batch, double h) {
   constexpr double kShare = 1.0 / 32, kSame = 0.99;
   const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
@@ -215,7 +221,7 @@ void SmallSteps::Impl::holdCarried(const Model& w, const Batch& batch, double h)
       sum += stayed[k];
       held += c.held[k];
     }
-    if (!isJointed(c)) {
+    if (!isJointed(c) && !batch.isAtOnce) {
       if (sum < held) {
         for (double& of : c.held) of *= sum / held;
       }

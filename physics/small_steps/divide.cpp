@@ -2,6 +2,7 @@
 // islands with as many substeps.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "physics/constraints/constraint_response.h"
 #include "physics/small_steps/small_steps_impl.h"
@@ -123,15 +124,31 @@ int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) 
   return static_cast<int>(std::min<double>(count, kMostSubsteps));
 }
 
+// A sweep brings about what the lighter body weighs: the load of the heavier takes many.
+bool SmallSteps::Impl::isUneven(const Bodies& b, const KeptContact& c) {
+  const double a = b.inverse[c.a].m, other = b.inverse[c.b].m;
+  return std::min(a, other) > 0 && std::max(a, other) > kMostCarried * std::min(a, other);
+}
+
+// Faster than by falling for two steps.
+bool SmallSteps::Impl::isHit(const Model& w, const KeptContact& c) {
+  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
+  return approachOf(w, c) > 2 * g * w.settings.dt;
+}
+
 // Of an island, by its first body. What touches and what does not are apart: joints are closed
 // further where no contact pushes. So are islands whose contacts know other things of joints.
 SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, BodyId root) {
   const bool touches = held[root] == Held::kTouching;
-  const bool isAlone = w.settings.accuracy && (touches || deforms[root]);  // its steps are its own
+  // Of islands of single bodies, which step as they are.
+  const bool isAtOnce = touches && atOnce[root] && joined[root] == Joined::kNot && !deforms[root] &&
+                        !w.settings.accuracy;
+  // Its steps are its own, or its loads.
+  const bool isAlone = (w.settings.accuracy && (touches || deforms[root])) || isAtOnce;
   for (std::size_t k = 0; k < batchCount && !isAlone; ++k) {
     const Batch& batch = batches[k];
     if (batch.substeps == substeps[root] && batch.sweeps == sweeps[root] &&
-        batch.touches == touches && batch.joined == joined[root]) {
+        batch.touches == touches && batch.joined == joined[root] && !batch.isAtOnce) {
       return batches[k];
     }
   }
@@ -143,6 +160,7 @@ SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, BodyId root) {
   batch.touches = touches;
   batch.joined = joined[root];
   batch.isAgain = false;
+  batch.isAtOnce = isAtOnce;
   return batch;
 }
 
@@ -194,11 +212,13 @@ void SmallSteps::Impl::divide(Model& w) {
     deforms[i] = 0;
     substeps[i] = 1;
     sweeps[i] = 1;
+    atOnce[i] = uneven[i] = 0;
   }
   for (const BodyId i : b.active) {
     const BodyId root = islands[i];
     substeps[root] = std::max(substeps[root], asked[i]);
     sweeps[root] = std::max(sweeps[root], askedSweeps[i]);
+    atOnce[root] = std::max(atOnce[root], std::exchange(askedAtOnce[i], char{0}));
     if (const int k = articulationOf[i]; k >= 0) {
       joined[root] =
           std::max(joined[root], responding[k] ? Joined::kResponds : Joined::kTakesTurns);
@@ -214,6 +234,10 @@ void SmallSteps::Impl::divide(Model& w) {
     const BodyId root = rootOf(w, contacts[k]);
     held[root] = Held::kTouching;
     want(root, forApproach[k], SubstepLaw::kApproach);
+    if (isUneven(b, contacts[k])) {
+      uneven[root] = 1;
+      if (isHit(w, contacts[k])) atOnce[root] = 1;
+    }
     substeps[root] = std::max(substeps[root], asked[root]);
   }
   for (const SoftPair& pair : softPairs) {

@@ -37,7 +37,9 @@ void SmallSteps::Impl::tell(const Model& w) const {
   for (std::size_t k = 0; k < batchCount; ++k) {
     countParts(batches[k], plans);
     for (const int c : batches[k].contacts) {
-      ++plans[rootOf(w, contacts[c])].contacts;
+      IslandPlan& plan = plans[rootOf(w, contacts[c])];
+      ++plan.contacts;
+      plan.atOnce = batches[k].isAtOnce;
     }
     for (const SoftPair& pair : batches[k].softPairs) {
       ++plans[islands[softMoverOf(w, pair)]].softContacts;

@@ -26,6 +26,7 @@ struct IslandPlan {
   int ropes = 0, cloths = 0, meshes = 0;
   int links = 0;                 // constraints in those
   int contacts = 0;              // pairs of bodies that meet or may
+  bool atOnce = false;           // of these the loads by Newton's method
   int softContacts = 0;          // points and links that may meet a body
   int substeps = 0, sweeps = 0;  // a step, a substep
   SubstepLaw law = SubstepLaw::kLeast;

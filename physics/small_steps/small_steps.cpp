@@ -29,6 +29,7 @@ void SmallSteps::forget() {
   std::fill(impl_->asked.begin(), impl_->asked.end(), 0);
   std::fill(impl_->meanSpins.begin(), impl_->meanSpins.end(), Vec3::Zero());
   std::fill(impl_->askedSweeps.begin(), impl_->askedSweeps.end(), 1);
+  std::fill(impl_->askedAtOnce.begin(), impl_->askedAtOnce.end(), 0);
   std::fill(impl_->finer.begin(), impl_->finer.end(), 0);
 }
 
@@ -51,6 +52,9 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   sweeps.resize(bodies, 1);
   asked.resize(bodies, 0);
   askedSweeps.resize(bodies, 1);
+  askedAtOnce.resize(bodies, 0);
+  atOnce.resize(bodies);
+  uneven.resize(bodies);
   law.resize(bodies);
   batchOf.resize(bodies);
   slotOf.resize(bodies);
@@ -76,6 +80,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   carried.resize(bodies);
   weight.resize(bodies);
   energy.resize(bodies);
+  whole.resize(bodies);
   held.resize(bodies);
   joined.resize(bodies);
   deforms.resize(bodies);

@@ -36,6 +36,7 @@
 #include "physics/solver/articulation.h"
 #include "physics/solver/bisection.h"
 #include "physics/solver/contact_block.h"
+#include "physics/solver/contact_newton.h"
 #include "physics/solver/deformable.h"
 #include "physics/solver/soft_rows.h"
 
@@ -72,6 +73,12 @@ constexpr int kLeastBodies = 64, kLeastContacts = 128, kLeastBlocks = 32;
 // each, with contacts in four turns: they need no more than two halves of a step with a look
 // between.
 constexpr int kLeastSwept = 4, kLeastSolved = 2, kMostSubsteps = 64;
+
+// Of its weight, what a body may carry while sweeps of its own mass, or turns with joints, find it.
+constexpr double kMostCarried = 4;
+
+// Contacts whose factor fills up further are swept, whatever they carry.
+constexpr double kMostFillAtOnce = 200;
 
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 
@@ -110,6 +117,7 @@ struct SmallSteps::Batch {
   bool isDeep = false;           // it has overlaps that the push speed limits
   bool isAgain = false;          // another attempt of what too few substeps took apart
   bool isLost = false;           // by an accuracy: no step resolves what its islands do
+  bool isAtOnce = false;         // one island: Newton's method before the sweeps over its loads
   bool closes = false;           // sweeps go on until contacts are closed, of each of its parts
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
@@ -228,6 +236,8 @@ struct SmallSteps::Impl {
   bool known = false;                 // these are those of the world's constraints
   std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
   std::vector<int> asked, askedSweeps;
+  // Loads that sweeps do not find, and islands that may have such; by the first body.
+  std::vector<char> askedAtOnce, atOnce, uneven;
   std::vector<SubstepLaw> law;  // by body: what it asks for `asked` by
   std::vector<Batch> batches;
   std::size_t batchCount = 0;
@@ -257,12 +267,14 @@ struct SmallSteps::Impl {
   std::vector<Vec3> pushed;               // by body: what hits add to its way in this step [m]
   std::vector<double> push;               // and how far that is
   std::vector<char> sliding;              // by contact: far in this step; empty: none does
-  enum class Held : char { kNot, kJoined, kTouching };          // by joints or points; by contacts
-  std::vector<Held> held;                                       // of an island, by its first body
-  std::vector<Joined> joined;                                   // the same
-  std::vector<char> deforms;                                    // the same: it has meshes or ropes
-  std::vector<double> load, sag, energy, change, changeBefore;  // by body (island: by its first)
-  std::vector<double> drawn, carried, weight;                   // the same
+  enum class Held : char { kNot, kJoined, kTouching };  // by joints or points; by contacts
+  std::vector<Held> held;                               // of an island, by its first body
+  std::vector<Joined> joined;                           // the same
+  std::vector<char> deforms;                            // the same: it has meshes or ropes
+  // By body (island: by its first).
+  std::vector<double> load, sag, drawn, carried, weight;
+  std::vector<double> energy, whole, change, changeBefore;
+  ContactNewton newton;                       // of the batch that steps
   std::vector<Displacement> predicted;        // by body: before joints and contacts
   std::vector<LaneNumbers> works;             // scratch, by block
   std::vector<std::pair<int, int>> overlaps;  // scratch, by slots
@@ -338,6 +350,8 @@ struct SmallSteps::Impl {
   int leastOf(const Model& w, BodyId i) const;
   void divide(Model& w);
   int substepsForApproach(const Model& w, const KeptContact& c) const;
+  static bool isUneven(const Bodies& b, const KeptContact& c);
+  static bool isHit(const Model& w, const KeptContact& c);
   void assign(Model& w);
   void assign(const Model& w, BodyId i);
   Batch& batchFor(const Model& w, BodyId root);
@@ -442,6 +456,7 @@ struct SmallSteps::Impl {
   std::vector<std::array<Weighed, ContactBlock::kLanes>> weighed;  // scratch, by block
   Weighed weigh(const Model& w, const ContactBlock& block, int l) const;
   void weighContacts(Model& w, const Batch& batch);
+  bool asksAtOnce(const Batch& batch, BodyId root) const;
   void askJoints(const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
   void askDeformables(Model& w, const Batch& batch, double h);

@@ -251,6 +251,7 @@ void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, int s) {
   if (learning) {
     balanceContacts(w, batch);
   } else {
+    if (s == 0 && batch.isAtOnce) newton.solveVelocities(batch.blocks, batch.motions);
     if (closes) watchVelocities(batch);
     sweepContactVelocities(w, batch, {.first = s == 0, .left = batch.sweeps - 1 - s});
     if (closes) closeVelocities(w, batch);

@@ -54,6 +54,7 @@ void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const Joint
   respond(batch);
   startGiving(w, batch);
   warmStartContacts(w, batch);
+  if (batch.isAtOnce) newton.solvePositions(batch.blocks, batch.motions);
   PositionSweep which;
   const int sweeps = batch.isDeep ? kPositionSweeps : 1;
   for (int s = 0; s < sweeps; ++s) {

@@ -93,6 +93,11 @@ struct FrictionAt {
   bool byLoad = false;  // true: by what they carry
 };
 
+// What the position sweep takes back at each point, and how much of the way is a spring's.
+struct alignas(32) PositionAims {
+  float aim[ContactBlock::kPoints][8], scale[ContactBlock::kPoints][8];
+};
+
 struct VelocitySweep {
   ContactRows rows = ContactRows::kAll;
   bool first = false;  // of a substep: gaps are measured
@@ -109,7 +114,10 @@ struct ContactKernels {
   void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, PositionSweep which);
   void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions,
                           VelocitySweep which);
-  // The same where the bodies stand: of the loads that hold them there.
+  void (*findAims)(const ContactBlock* blocks, int count, const LaneMotion* motions,
+                   PositionAims* aims);
+  void (*measure)(ContactBlock* blocks, int count, const LaneMotion* motions);  // `open`
+  // As velocities where the bodies stand: of the loads that hold them there.
   void (*balance)(ContactBlock* blocks, int count, LaneMotion* motions);
 };
 

@@ -248,6 +248,19 @@ void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions, Ve
   });
 }
 
+void findAimsAll(const ContactBlock* blocks, int count, const LaneMotion* motions,
+                 PositionAims* aims) {
+  forEachBlock(blocks, count, [&](const ContactBlock& block, auto points) {
+    aimBlock<points.value>(block, motions, aims[&block - blocks]);
+  });
+}
+
+void measureAll(ContactBlock* blocks, int count, const LaneMotion* motions) {
+  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
+    measureBlock<points.value>(block, motions);
+  });
+}
+
 void balanceAll(ContactBlock* blocks, int count, LaneMotion* motions) {
   forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
     balanceBlock<points.value>(block, motions);
@@ -256,7 +269,7 @@ void balanceAll(ContactBlock* blocks, int count, LaneMotion* motions) {
 
 }  // namespace
 
-const ContactKernels KERNELS = {prepareAll,        warmStartAll,       measureWorkAll,
-                                sweepPositionsAll, sweepVelocitiesAll, balanceAll};
+const ContactKernels KERNELS = {prepareAll,         warmStartAll, measureWorkAll, sweepPositionsAll,
+                                sweepVelocitiesAll, findAimsAll,  measureAll,     balanceAll};
 
 }  // namespace physics

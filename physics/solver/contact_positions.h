@@ -42,13 +42,16 @@ inline void limitFriction(ContactBlock& m, const Lanes (&lambda)[kCount], Moved&
   store(m.twist, kept);
 }
 
-// Where overlaps are, and the share of them that a substep takes back.
+// Where overlaps are, and what a substep takes back of them: lambda = -(s J u + aim) / A + (1 - s)
+// lambda.
 template <int kCount>
 struct Depths {
-  Lanes c[kCount], drawn[kCount], own = all(kTiny), near, full, share;
+  Lanes c[kCount], drawn[kCount], own = all(kTiny), near, full, share, soft;
 
   Depths(const ContactBlock& m, const Since& a, const Since& b, PositionSweep which)
-      : near(larger(a.deepest, b.deepest)), full(load(m.scale) * load(m.rate)) {
+      : near(larger(a.deepest, b.deepest)),
+        full(load(m.scale) * load(m.rate)),
+        soft(load(m.scale)) {
     const Lanes zero = all(0), tiny = all(kTiny), apart = dot(load(m.n), a.u - b.u);
     const Lanes gives = (all(1) - load(m.scale)) / larger(full, tiny);
     for (int i = 0; i < kCount; ++i) {
@@ -59,6 +62,10 @@ struct Depths {
       own = larger(own, zero - (c[i] + drawn[i]));
     }
     share = smaller(full, load(m.push) / larger(own, near));
+  }
+  Lanes scale(int i) const { return wherePositive(c[i], all(1), soft); }
+  Lanes aim(int i) const {
+    return wherePositive(c[i], c[i], share * (c[i] + drawn[i]) - full * drawn[i]);
   }
 };
 
@@ -74,7 +81,7 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSw
     forgetFriction(m, wherePositive(depths.near, deep, all(0)), a, b);
   }
   const Lanes3 n = load(m.n);
-  const Lanes zero = all(0), one = all(1), soft = load(m.scale), along = dot(n, a.u - b.u);
+  const Lanes zero = all(0), one = all(1), along = dot(n, a.u - b.u);
   Lanes v[kCount], lambda[kCount], sum = zero;
   for (int i = 0; i < kCount; ++i) {
     v[i] = rateOf(m.point[i], along, a, b);
@@ -83,11 +90,9 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSw
   // Twice: the first point of a sweep is pushed for all, and the bodies would tilt.
   for (int pass = 0; pass < 2; ++pass) {
     for (int i = 0; i < kCount; ++i) {
-      const Lanes c = depths.c[i], drawn = depths.drawn[i], inverse = load(m.point[i].inverse);
-      const Lanes scale = wherePositive(c, one, soft);
-      const Lanes aim = wherePositive(c, c, depths.share * (c + drawn) - depths.full * drawn);
+      const Lanes scale = depths.scale(i), inverse = load(m.point[i].inverse);
       const Lanes yields = (one - scale) * lambda[i];
-      Lanes total = larger(lambda[i] - yields - inverse * (scale * v[i] + aim), zero);
+      Lanes total = larger(lambda[i] - yields - inverse * (scale * v[i] + depths.aim(i)), zero);
       if (which.onlyDeep) total = wherePositive(depths.near, total, lambda[i]);
       const Lanes delta = total - lambda[i];
       lambda[i] = total;
@@ -106,6 +111,15 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSw
   if (!which.onlyDeep) limitFriction<kCount>(m, lambda, a, b);
   scatter(m.bodyA, load(m.massA), a, motions);
   scatter(m.bodyB, load(m.massB), b, motions);
+}
+
+template <int kCount>
+inline void aimBlock(const ContactBlock& m, const LaneMotion* motions, PositionAims& to) {
+  const Depths<kCount> depths(m, gatherSince(m.bodyA, motions), gatherSince(m.bodyB, motions), {});
+  for (int i = 0; i < kCount; ++i) {
+    store(to.aim[i], depths.aim(i));
+    store(to.scale[i], depths.scale(i));
+  }
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ struct KeptContact {
   // friction at the centre (world), and of its twist about the normal.
   std::array<double, Manifold::kMaxPoints> lambda{}, before{};
   // Force [N] about which it gives way: that the points carried where the world began, that two
-  // rows of an accuracy's step agreed on, or that jointed bodies have come to rest on. It goes down
-  // with the load.
+  // rows of an accuracy's step agreed on, or that bodies with joints, and those whose loads are
+  // found at once, have come to rest on. It goes down with the load.
   std::array<double, Manifold::kMaxPoints> held{};
   Vec3 tangential = Vec3::Zero();
   double twist = 0;

@@ -1,0 +1,84 @@
+// Normal loads of contacts at once, where sweeps do not find them: light bodies under heavy ones.
+//
+// A stage of a substep minimizes over what bodies move by
+//   1/2 (u - u0)^T M (u - u0) + sum k/2 min(0, J u + e)^2,   lambda = -k min(0, J u + e)
+// with u0 without these loads, and of each point the aim e and the stiffness k of its law; what
+// gives way to nothing is 1e6 times as stiff as its bodies resist. That is convex, and quadratic
+// as long as the same points press: Newton's method, with shorter steps where it rises, ends after
+// a few. Its matrix couples bodies that touch. After E. Todorov, "Convex and analytically-
+// invertible dynamics with contacts and constraints", ICRA 2014.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/solver/block_factor.h"
+#include "physics/solver/contact_block.h"
+
+namespace physics {
+
+class ContactNewton {
+ public:
+  // Of which bodies touch. Allocates, as long as there are more of them than before.
+  void layOut(std::span<const ContactBlock> blocks, std::span<const LaneMass> masses);
+  double fill() const { return factor_.fill(); }
+
+  // From the loads that blocks and motions have to those of a stage; friction stays as it is.
+  void solvePositions(std::span<ContactBlock> blocks, std::span<LaneMotion> motions);
+  void solveVelocities(std::span<ContactBlock> blocks, std::span<LaneMotion> motions);
+  double gain() const { return gain_; }  // what it went down by there [J s^2]
+
+ private:
+  struct Motion {  // turns in the units of the lanes
+    Vec3 u = Vec3::Zero(), turn = Vec3::Zero();
+  };
+  using Motions = std::vector<Motion>;  // by slot
+  struct Law {
+    double aim, stiffness;
+    bool isHard;  // its loads go on from those of before
+  };
+  struct Contact {
+    int a, b;                // slots
+    std::size_t first, end;  // rows
+  };
+  struct Row {  // a point
+    Vec3 n, wA, wB;
+    double aim, stiffness;
+    double before, lambda;
+    float* stored;
+    bool presses;
+  };
+  struct Block {  // of a body and itself or another: of u and turns
+    Mat3 u, uTurn, turnU, turn;
+  };
+
+  template <class LawOf>
+  void takeRows(std::span<ContactBlock> blocks, LawOf&& lawOf);
+  void solve(std::span<LaneMotion> motions);
+  void start(std::span<const LaneMotion> motions);
+  bool markPressing();
+  void descend();
+  double findLeast();
+  void minimize(Motions& x);
+  void addContact(const Contact& c, Block& between);
+  void giveMatrix();
+  void push(const Contact& c, const Row& row, double lambda, Motions& x) const;
+  double energyOf(const Motions& x) const;
+
+  std::vector<int> places_;      // by slot: of its u in the matrix, its turn follows; -1: given
+  std::vector<double> inverse_;  // by slot: 1/m
+  BlockFactor factor_;
+  std::vector<Contact> contacts_;
+  std::vector<Row> rows_;
+  std::vector<PositionAims> aims_;
+  std::vector<Block> own_, between_;  // by slot, by contact
+  Motions before_, x_, next_;         // but for what moves without these loads
+  std::vector<Vec3> solved_;
+  struct Along {  // of a row, on the way of a step
+    double from, change, stiffness;
+  };
+  std::vector<Along> along_;
+  double gain_ = 0;
+};
+
+}  // namespace physics
