@@ -70,8 +70,8 @@ void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch) {
 }
 
 // The sag of a contact under what it has carried for two steps, and what the last sweep changed.
-SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactBlock& block,
-                                                  int l) const {
+SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const Batch& batch,
+                                                  const ContactBlock& block, int l) const {
   const Bodies& b = w.bodies;
   const KeptContact& c = contacts[block.contact[l]];
   Weighed of;
@@ -83,7 +83,7 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const ContactB
   const Softness law = softnessOf(b, c);
   const double soft = (1 - law.scale) / (law.scale * law.rate);
   const double size = std::min(radius[c.a], radius[c.b]);
-  if (!(size > 0) || isJointed(c)) return of;
+  if (!(size > 0) || (isJointed(c) && !batch.isAtOnce)) return of;
   const double small = smallSag(w, c, size);
   for (int k = 0; k < c.count; ++k) {
     const double inverse = block.point[k].inverse[l];
@@ -106,7 +106,7 @@ void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch) {
     for (int i = from; i < to; ++i) {
       const ContactBlock& block = batch.blocks[i];
       for (int l = 0; l < ContactBlock::kLanes; ++l) {
-        weighed[i][l] = block.contact[l] < 0 ? Weighed{} : weigh(w, block, l);
+        weighed[i][l] = block.contact[l] < 0 ? Weighed{} : weigh(w, batch, block, l);
       }
     }
   });
@@ -196,10 +196,13 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch, double h)
   }
 }
 
-// Where sweeps do not get there. What they have yet to bring shrinks by the same share r from one
-// to the next; it is change r / (1 - sqrt r)^2 of energy, and more than all that the island has.
-bool SmallSteps::Impl::asksAtOnce(const Batch& batch, BodyId root) const {
-  if (learning || !batch.inLanes()) return false;
+// Where sweeps do not get there; where joints are, for as long as what is heavy lies on what is
+// light: turns of the two would rock it. What sweeps have yet to bring shrinks by the same share r
+// from one to the next; it is change r / (1 - sqrt r)^2 of energy, and more than all that the
+// island has.
+bool SmallSteps::Impl::asksAtOnce(const Model& w, const Batch& batch, BodyId root) const {
+  if (learning || batch.isSoft() || !batch.softPairs.empty()) return false;
+  if (batch.isAtOnce && batch.isMixed()) return isOverloaded(w, batch);
   if (batch.isAtOnce) return newton.gain() > kMotion * whole[root];
   if (batch.sweeps < 2 || !uneven[root] || !(change[root] > kMotion * whole[root])) return false;
   const double r = change[root] / changeBefore[root], slow = 1 - std::sqrt(r);
@@ -222,7 +225,7 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
       want(i, substepsFor(substeps[root], sagOf(root)), SubstepLaw::kSag);
     }
     askedSweeps[i] = batch.sweeps;
-    askedAtOnce[i] = root == i && asksAtOnce(batch, root);
+    askedAtOnce[i] = root == i && asksAtOnce(w, batch, root);
     if (learning) {
       askedSweeps[i] = most;  // they go down where the motion allows it
     } else if (change[root] > energy[root]) {

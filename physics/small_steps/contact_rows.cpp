@@ -159,11 +159,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
     contactKernels().prepare(blocks.data(), to - from, batch.masses.data(), friction);
     if (isDeep(batch, blocks)) someDeep = true;
   });
-  batch.isAtOnce = batch.isAtOnce && batch.inLanes();
-  if (batch.isAtOnce) {
-    newton.layOut(batch.blocks, batch.masses);
-    batch.isAtOnce = newton.fill() <= kMostFillAtOnce;
-  }
+  layAtOnce(batch);
   noteSliding(batch);
   if (batch.inLanes()) giveLanes(w, batch);
   batch.isDeep = someDeep;

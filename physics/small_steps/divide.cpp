@@ -2,6 +2,7 @@
 // islands with as many substeps.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "physics/constraints/constraint_response.h"
@@ -55,6 +56,7 @@ void SmallSteps::Impl::learn(Model& w) {
   articulationOf.assign(w.bodies.pose.size(), -1);
   deformableOf.assign(w.bodies.pose.size(), -1);
   responding.clear();
+  articulatedMass.clear();
   learnAccurate(w, rows);
   finer.clear();
   for (const BodyId root : roots) {
@@ -70,7 +72,11 @@ void SmallSteps::Impl::learn(Model& w) {
       articulations.emplace_back(rows[root], w.kinds, w.bodies.inverse, topologies);
       responding.push_back(0);
       finer.push_back(0);
+      const Articulation& last = articulations.back();
+      const bool hangs = last.allBodies().size() > last.bodies().size();
+      articulatedMass.push_back(hangs ? std::numeric_limits<double>::infinity() : 0);
       for (const BodyId i : articulations.back().bodies()) {
+        articulatedMass.back() += w.bodies.mass[i];
         articulationOf[i] = static_cast<int>(articulations.size()) - 1;
       }
     }
@@ -124,12 +130,6 @@ int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) 
   return static_cast<int>(std::min<double>(count, kMostSubsteps));
 }
 
-// A sweep brings about what the lighter body weighs: the load of the heavier takes many.
-bool SmallSteps::Impl::isUneven(const Bodies& b, const KeptContact& c) {
-  const double a = b.inverse[c.a].m, other = b.inverse[c.b].m;
-  return std::min(a, other) > 0 && std::max(a, other) > kMostCarried * std::min(a, other);
-}
-
 // Faster than by falling for two steps.
 bool SmallSteps::Impl::isHit(const Model& w, const KeptContact& c) {
   const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
@@ -140,9 +140,8 @@ bool SmallSteps::Impl::isHit(const Model& w, const KeptContact& c) {
 // further where no contact pushes. So are islands whose contacts know other things of joints.
 SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, BodyId root) {
   const bool touches = held[root] == Held::kTouching;
-  // Of islands of single bodies, which step as they are.
-  const bool isAtOnce = touches && atOnce[root] && joined[root] == Joined::kNot && !deforms[root] &&
-                        !w.settings.accuracy;
+  const bool isAtOnce =
+      touches && atOnce[root] && !deforms[root] && !hangs[root] && !w.settings.accuracy;
   // Its steps are its own, or its loads.
   const bool isAlone = (w.settings.accuracy && (touches || deforms[root])) || isAtOnce;
   for (std::size_t k = 0; k < batchCount && !isAlone; ++k) {
@@ -212,7 +211,7 @@ void SmallSteps::Impl::divide(Model& w) {
     deforms[i] = 0;
     substeps[i] = 1;
     sweeps[i] = 1;
-    atOnce[i] = uneven[i] = 0;
+    atOnce[i] = uneven[i] = hangs[i] = 0;
   }
   for (const BodyId i : b.active) {
     const BodyId root = islands[i];
@@ -220,6 +219,7 @@ void SmallSteps::Impl::divide(Model& w) {
     sweeps[root] = std::max(sweeps[root], askedSweeps[i]);
     atOnce[root] = std::max(atOnce[root], std::exchange(askedAtOnce[i], char{0}));
     if (const int k = articulationOf[i]; k >= 0) {
+      if (!std::isfinite(articulatedMass[k])) hangs[root] = 1;
       joined[root] =
           std::max(joined[root], responding[k] ? Joined::kResponds : Joined::kTakesTurns);
     }
@@ -234,7 +234,7 @@ void SmallSteps::Impl::divide(Model& w) {
     const BodyId root = rootOf(w, contacts[k]);
     held[root] = Held::kTouching;
     want(root, forApproach[k], SubstepLaw::kApproach);
-    if (isUneven(b, contacts[k])) {
+    if (lightMass(b, contacts[k]) > 0) {
       uneven[root] = 1;
       if (isHit(w, contacts[k])) atOnce[root] = 1;
     }

@@ -55,6 +55,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   askedAtOnce.resize(bodies, 0);
   atOnce.resize(bodies);
   uneven.resize(bodies);
+  hangs.resize(bodies);
   law.resize(bodies);
   batchOf.resize(bodies);
   slotOf.resize(bodies);

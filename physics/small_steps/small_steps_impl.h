@@ -14,6 +14,7 @@
 //   fly.cpp           bodies that nothing holds, and those that are about to meet
 //   accurately.cpp    islands that step by an accuracy, and touch nothing
 //   accurately_touching.cpp  and those that touch, or have meshes and ropes
+//   at_once.cpp       loads of contacts that sweeps do not find
 //   close_velocities.cpp     sweeps over their contacts until these change no more
 //   bounce.cpp        restitution
 //   look.cpp          the contacts of a step
@@ -77,8 +78,8 @@ constexpr int kLeastSwept = 4, kLeastSolved = 2, kMostSubsteps = 64;
 // Of its weight, what a body may carry while sweeps of its own mass, or turns with joints, find it.
 constexpr double kMostCarried = 4;
 
-// Contacts whose factor fills up further are swept, whatever they carry.
-constexpr double kMostFillAtOnce = 200;
+// Products of blocks in a factor of contacts: those that take more are swept, whatever they carry.
+constexpr double kMostProductsAtOnce = 1e4;
 
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
 
@@ -237,7 +238,7 @@ struct SmallSteps::Impl {
   std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
   std::vector<int> asked, askedSweeps;
   // Loads that sweeps do not find, and islands that may have such; by the first body.
-  std::vector<char> askedAtOnce, atOnce, uneven;
+  std::vector<char> askedAtOnce, atOnce, uneven, hangs;
   std::vector<SubstepLaw> law;  // by body: what it asks for `asked` by
   std::vector<Batch> batches;
   std::size_t batchCount = 0;
@@ -274,6 +275,9 @@ struct SmallSteps::Impl {
   // By body (island: by its first).
   std::vector<double> load, sag, drawn, carried, weight;
   std::vector<double> energy, whole, change, changeBefore;
+  std::vector<double> articulatedMass;        // of all bodies of an articulation [kg]
+  std::vector<SharedRow> sharedRows;          // scratch
+  std::vector<LaneStart> atOnceBefore;        // scratch, by slot
   ContactNewton newton;                       // of the batch that steps
   std::vector<Displacement> predicted;        // by body: before joints and contacts
   std::vector<LaneNumbers> works;             // scratch, by block
@@ -350,7 +354,14 @@ struct SmallSteps::Impl {
   int leastOf(const Model& w, BodyId i) const;
   void divide(Model& w);
   int substepsForApproach(const Model& w, const KeptContact& c) const;
-  static bool isUneven(const Bodies& b, const KeptContact& c);
+  double lightMass(const Bodies& b, const KeptContact& c) const;
+  bool isOverloaded(const Model& w, const Batch& batch) const;
+  void layAtOnce(Batch& batch);
+  void takeJoints(Batch& batch);
+  template <class F>
+  void solveAtOnce(Batch& batch, F&& solve);
+  void solvePositionsAtOnce(Batch& batch, PositionSweep which);
+  void solveVelocitiesAtOnce(Batch& batch);
   static bool isHit(const Model& w, const KeptContact& c);
   void assign(Model& w);
   void assign(const Model& w, BodyId i);
@@ -454,9 +465,9 @@ struct SmallSteps::Impl {
     double change = 0, changeBefore = 0, energy = 0, load = 0, sag = 0, drawn = 0, carried = 0;
   };
   std::vector<std::array<Weighed, ContactBlock::kLanes>> weighed;  // scratch, by block
-  Weighed weigh(const Model& w, const ContactBlock& block, int l) const;
+  Weighed weigh(const Model& w, const Batch& batch, const ContactBlock& block, int l) const;
   void weighContacts(Model& w, const Batch& batch);
-  bool asksAtOnce(const Batch& batch, BodyId root) const;
+  bool asksAtOnce(const Model& w, const Batch& batch, BodyId root) const;
   void askJoints(const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
   void askDeformables(Model& w, const Batch& batch, double h);

@@ -251,7 +251,6 @@ void SmallSteps::Impl::sweepContactVelocities(Model& w, Batch& batch, int s) {
   if (learning) {
     balanceContacts(w, batch);
   } else {
-    if (s == 0 && batch.isAtOnce) newton.solveVelocities(batch.blocks, batch.motions);
     if (closes) watchVelocities(batch);
     sweepContactVelocities(w, batch, {.first = s == 0, .left = batch.sweeps - 1 - s});
     if (closes) closeVelocities(w, batch);
@@ -318,6 +317,10 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   }
   for (int s = 0; s < batch.sweeps; ++s) {
     if (count > 0) {
+      if (s == 0 && batch.isAtOnce && !learning) {
+        solveVelocitiesAtOnce(batch);
+        if (inLanes) batch.joints.solveVelocities(lanesOf(batch));
+      }
       sweepContactVelocities(w, batch, s);
       if (isBalanced(w, batch, s + 1)) break;
       if (!isMixed) continue;

@@ -31,6 +31,10 @@ void SmallSteps::Impl::takeTurns(Model& w, Batch& batch, const JointStage& stage
   warmStartContacts(w, batch);
   batch.joints.startTurns(stage, lanesOf(batch));
   for (const BodyId i : batch.bodies) predicted[i] = moved[i];
+  if (batch.isAtOnce) {
+    solvePositionsAtOnce(batch, which);
+    batch.joints.followPositions(lanesOf(batch));
+  }
   for (int s = 0; s < kPositionSweeps; ++s) {
     profileScope("contact");
     sweepContactPositions(w, batch, which);
@@ -54,8 +58,8 @@ void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const Joint
   respond(batch);
   startGiving(w, batch);
   warmStartContacts(w, batch);
-  if (batch.isAtOnce) newton.solvePositions(batch.blocks, batch.motions);
   PositionSweep which;
+  solvePositionsAtOnce(batch, which);
   const int sweeps = batch.isDeep ? kPositionSweeps : 1;
   for (int s = 0; s < sweeps; ++s) {
     which.onlyDeep = s > 0;

@@ -155,6 +155,10 @@ void JointPacks::respond() {
   forEach([&](auto& pack) { pack.respond(); });
 }
 
+void JointPacks::addRows(std::vector<SharedRow>& rows) {
+  forEach([&](auto& pack) { pack.addRows(rows); });
+}
+
 void JointPacks::finish(Kinds& kinds, double h) {
   forEach([&](auto& pack) { pack.finish(kinds, h); });
 }

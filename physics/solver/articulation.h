@@ -139,6 +139,15 @@ struct JointStage {
   std::span<const Vec3> spin = {};
 };
 
+// One row of an articulation as it stands, for who solves it together with other rows: no more than
+// `rows` of J, by bodies, and alpha.
+struct SharedRow {
+  int rows = 0;
+  std::array<BodyId, JointRow::kMostBodies> bodies{kWorldBody, kWorldBody};  // that move
+  std::array<Mat3, JointRow::kMostBodies> linear{Mat3::Zero(), Mat3::Zero()}, angular = linear;
+  Mat3 alpha = Mat3::Zero();
+};
+
 // Up to W articulations of equal topology, side by side.
 template <int W>
 class JointPack {
@@ -162,6 +171,8 @@ class JointPack {
   void refineVelocities(const JointStage& stage);
   void respond();
   void finish(Kinds& kinds, double h);
+  // Of each lane; J and alpha of those that are free, none of the others.
+  void addRows(std::vector<SharedRow>& rows) const;
 
  private:
   struct State {  // of a row that its kind evaluates, by lane
@@ -270,6 +281,7 @@ class JointPacks {
   void solveVelocities(const LaneBodies& lanes);
   void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
   void respond();                                  // of those that ask: `Articulation::response`
+  void addRows(std::vector<SharedRow>& rows);      // as they were evaluated last
   // Multipliers back to the kinds' sets, but of those that are opened.
   void finish(Kinds& kinds, double h);
 

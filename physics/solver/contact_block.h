@@ -115,7 +115,7 @@ struct ContactKernels {
   void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions,
                           VelocitySweep which);
   void (*findAims)(const ContactBlock* blocks, int count, const LaneMotion* motions,
-                   PositionAims* aims);
+                   PositionSweep which, PositionAims* aims);
   void (*measure)(ContactBlock* blocks, int count, const LaneMotion* motions);  // `open`
   // As velocities where the bodies stand: of the loads that hold them there.
   void (*balance)(ContactBlock* blocks, int count, LaneMotion* motions);

@@ -249,9 +249,9 @@ void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions, Ve
 }
 
 void findAimsAll(const ContactBlock* blocks, int count, const LaneMotion* motions,
-                 PositionAims* aims) {
+                 PositionSweep which, PositionAims* aims) {
   forEachBlock(blocks, count, [&](const ContactBlock& block, auto points) {
-    aimBlock<points.value>(block, motions, aims[&block - blocks]);
+    aimBlock<points.value>(block, motions, which, aims[&block - blocks]);
   });
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/base/inverse.h"
+
 namespace physics {
 namespace {
 
@@ -29,6 +31,12 @@ double rateOf(const C& c, const auto& row, const X& x) {
   return row.n.dot(x[c.a].u - x[c.b].u) + row.wA.dot(x[c.a].turn) - row.wB.dot(x[c.b].turn);
 }
 
+template <class X>
+Vec3 rateOf(const ContactNewton::Joint& j, const X& x) {
+  return j.linearA * x[j.a].u + j.turnA * x[j.a].turn + j.linearB * x[j.b].u +
+         j.turnB * x[j.b].turn;
+}
+
 }  // namespace
 
 void ContactNewton::layOut(std::span<const ContactBlock> blocks, std::span<const LaneMass> masses) {
@@ -43,14 +51,17 @@ void ContactNewton::layOut(std::span<const ContactBlock> blocks, std::span<const
     entries.insert(entries.end(), {{u, u}, {turn, u}, {turn, turn}});
     count += 2;
   }
-  forEachLane(blocks, [&](const ContactBlock& block, int l) {
-    const int a = places_[block.bodyA[l]], b = places_[block.bodyB[l]];
+  const auto addPair = [&](int slotA, int slotB) {
+    const int a = places_[slotA], b = places_[slotB];
     if (a < 0 || b < 0) return;
     const auto [low, high] = std::minmax(a, b);
     for (const int row : {high, high + 1}) {
       for (const int column : {low, low + 1}) entries.push_back({row, column});
     }
-  });
+  };
+  forEachLane(blocks,
+              [&](const ContactBlock& block, int l) { addPair(block.bodyA[l], block.bodyB[l]); });
+  for (const Joint& joint : joints) addPair(joint.a, joint.b);
   factor_.layOut(entries);
   own_.resize(masses.size());
   for (Motions* of : {&before_, &x_, &next_}) of->resize(masses.size());
@@ -77,9 +88,10 @@ void ContactNewton::takeRows(std::span<ContactBlock> blocks, LawOf&& lawOf) {
   between_.resize(contacts_.size());
 }
 
-void ContactNewton::solvePositions(std::span<ContactBlock> blocks, std::span<LaneMotion> motions) {
+void ContactNewton::solvePositions(std::span<ContactBlock> blocks, std::span<LaneMotion> motions,
+                                   PositionSweep which) {
   aims_.resize(blocks.size());
-  contactKernels().findAims(blocks.data(), static_cast<int>(blocks.size()), motions.data(),
+  contactKernels().findAims(blocks.data(), static_cast<int>(blocks.size()), motions.data(), which,
                             aims_.data());
   takeRows(blocks, [&](const ContactBlock& block, int l, int i) {
     const PositionAims& of = aims_[&block - blocks.data()];
@@ -109,15 +121,6 @@ void ContactNewton::push(const Contact& c, const Row& row, double lambda, Motion
   }
 }
 
-// 1/2 x^T M x
-double ContactNewton::energyOf(const Motions& x) const {
-  double sum = 0;
-  for (std::size_t s = 1; s < x.size(); ++s) {
-    if (places_[s] >= 0) sum += x[s].u.squaredNorm() / inverse_[s] + x[s].turn.squaredNorm();
-  }
-  return 0.5 * sum;
-}
-
 // From what bodies move by to what they do but for these loads, and from there on: aims count what
 // they move by without.
 void ContactNewton::start(std::span<const LaneMotion> motions) {
@@ -138,6 +141,21 @@ void ContactNewton::start(std::span<const LaneMotion> motions) {
     }
   }
   x_ = before_;
+}
+
+// Of what their bodies resist, joints give way by as little as contacts do.
+void ContactNewton::holdJoints() {
+  held_.resize(joints.size());
+  betweenJoints_.resize(joints.size());
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const Joint& j = joints[k];
+    Mat3 gives = j.alpha;
+    const double resists = inverse_[j.a] * j.linearA.squaredNorm() + j.turnA.squaredNorm() +
+                           inverse_[j.b] * j.linearB.squaredNorm() + j.turnB.squaredNorm();
+    gives.diagonal().array() += kGives * resists / 3;
+    for (int r = j.rows; r < 3; ++r) gives(r, r) = 1;
+    held_[k] = {inverseOrNan<Mat3>(gives), rateOf(j, before_)};
+  }
 }
 
 // What presses at x. True: the same as before.
@@ -192,6 +210,36 @@ void ContactNewton::addContact(const Contact& c, Block& between) {
   addOwn(c.b, wB, turnB, -1, aimB);
 }
 
+void ContactNewton::addJoint(const Joint& j, const Held& held, Block& between) {
+  const auto addOwn = [&](int slot, const Mat3& linear, const Mat3& turn) {
+    const int place = places_[slot];
+    if (place < 0) return;
+    const Mat3 kLinear = held.stiffness * linear, kTurn = held.stiffness * turn;
+    own_[slot].u += linear.transpose() * kLinear;
+    own_[slot].turnU += turn.transpose() * kLinear;
+    own_[slot].turn += turn.transpose() * kTurn;
+    solved_[place] += kLinear.transpose() * held.start;
+    solved_[place + 1] += kTurn.transpose() * held.start;
+  };
+  addOwn(j.a, j.linearA, j.turnA);
+  addOwn(j.b, j.linearB, j.turnB);
+  const Mat3 kLinear = held.stiffness * j.linearB, kTurn = held.stiffness * j.turnB;
+  between.u = j.linearA.transpose() * kLinear;
+  between.uTurn = j.linearA.transpose() * kTurn;
+  between.turnU = j.turnA.transpose() * kLinear;
+  between.turn = j.turnA.transpose() * kTurn;
+}
+
+void ContactNewton::giveBetween(int slotA, int slotB, const Block& of) {
+  const int a = places_[slotA], b = places_[slotB];
+  if (a < 0 || b < 0) return;
+  const bool isTurned = a < b;
+  factor_.give(of.u);
+  factor_.give(isTurned ? of.turnU.transpose() : of.uTurn);
+  factor_.give(isTurned ? of.uTurn.transpose() : of.turnU);
+  factor_.give(isTurned ? of.turn.transpose() : of.turn);
+}
+
 // In the order of the entries.
 void ContactNewton::giveMatrix() {
   factor_.begin();
@@ -202,14 +250,10 @@ void ContactNewton::giveMatrix() {
     factor_.give(own_[s].turn);
   }
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    const int a = places_[contacts_[k].a], b = places_[contacts_[k].b];
-    if (a < 0 || b < 0) continue;
-    const Block& of = between_[k];
-    const bool isTurned = a < b;
-    factor_.give(of.u);
-    factor_.give(isTurned ? of.turnU.transpose() : of.uTurn);
-    factor_.give(isTurned ? of.uTurn.transpose() : of.turnU);
-    factor_.give(isTurned ? of.turn.transpose() : of.turn);
+    giveBetween(contacts_[k].a, contacts_[k].b, between_[k]);
+  }
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    giveBetween(joints[k].a, joints[k].b, betweenJoints_[k]);
   }
 }
 
@@ -221,6 +265,7 @@ void ContactNewton::minimize(Motions& x) {
     if (places_[s] >= 0) own_[s] = {one / inverse_[s], zero, zero, one};
   }
   for (std::size_t k = 0; k < contacts_.size(); ++k) addContact(contacts_[k], between_[k]);
+  for (std::size_t k = 0; k < joints.size(); ++k) addJoint(joints[k], held_[k], betweenJoints_[k]);
   giveMatrix();
   factor_.factorize();
   factor_.solve(solved_);
@@ -238,6 +283,12 @@ double ContactNewton::findLeast() {
     const Vec3 u = next_[s].u - x_[s].u, turn = next_[s].turn - x_[s].turn;
     slope0 += x_[s].u.dot(u) / inverse_[s] + x_[s].turn.dot(turn);
     rise += u.squaredNorm() / inverse_[s] + turn.squaredNorm();
+  }
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const Vec3 from = rateOf(joints[k], x_), change = rateOf(joints[k], next_) - from;
+    const Vec3 pull = held_[k].stiffness * change;
+    slope0 += pull.dot(from - held_[k].start);
+    rise += pull.dot(change);
   }
   along_.clear();
   for (const Contact& c : contacts_) {
@@ -276,15 +327,30 @@ void ContactNewton::descend() {
   }
 }
 
-// Loads that do not go down from those of before are not taken: f of the sweeps, and what springs
-// hold.
+// By how much f of the sweeps, and what springs hold, is less for x and its loads than for those of
+// before.
+double ContactNewton::gainOf(const Motions& x) const {
+  double rise = 0;
+  for (const Contact& c : contacts_) {
+    for (std::size_t i = c.first; i < c.end; ++i) {
+      const Row& row = rows_[i];
+      const double more = row.lambda - row.before, from = rateOf(c, row, before_);
+      rise += more * (row.aim + 0.5 * (from + rateOf(c, row, x)) +
+                      0.5 * (row.lambda + row.before) / row.stiffness);
+    }
+  }
+  return -rise;
+}
+
+// Loads that do not go down are not taken.
 void ContactNewton::solve(std::span<LaneMotion> motions) {
   start(motions);
-  for (int k = 0; k < kMostNewtonSteps; ++k) {
+  holdJoints();
+  bool ends = false;
+  for (int k = 0; k < kMostNewtonSteps && !ends; ++k) {
     descend();
-    if (markPressing()) break;
+    ends = markPressing();
   }
-  double held = 0, heldBefore = 0;
   std::swap(x_, next_);
   std::fill(x_.begin(), x_.end(), Motion{});
   for (const Contact& c : contacts_) {
@@ -292,12 +358,10 @@ void ContactNewton::solve(std::span<LaneMotion> motions) {
       Row& row = rows_[i];
       row.lambda = row.stiffness * std::max(-(rateOf(c, row, next_) + row.aim), 0.0);
       push(c, row, row.lambda, x_);
-      held += row.lambda * (row.aim + 0.5 * row.lambda / row.stiffness);
-      heldBefore += row.before * (row.aim + 0.5 * row.before / row.stiffness);
     }
   }
-  gain_ = energyOf(before_) + heldBefore - energyOf(x_) - held;
-  if (!(gain_ > 0)) return;
+  gain_ = gainOf(joints.empty() ? x_ : next_);
+  if (!(gain_ > 0) || (!joints.empty() && !ends)) return;
   for (const Row& row : rows_) *row.stored = static_cast<float>(row.lambda);
   for (std::size_t s = 1; s < motions.size(); ++s) {
     for (int k = 0; k < 3; ++k) {

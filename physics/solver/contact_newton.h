@@ -3,10 +3,12 @@
 // A stage of a substep minimizes over what bodies move by
 //   1/2 (u - u0)^T M (u - u0) + sum k/2 min(0, J u + e)^2,   lambda = -k min(0, J u + e)
 // with u0 without these loads, and of each point the aim e and the stiffness k of its law; what
-// gives way to nothing is 1e6 times as stiff as its bodies resist. That is convex, and quadratic
-// as long as the same points press: Newton's method, with shorter steps where it rises, ends after
-// a few. Its matrix couples bodies that touch. After E. Todorov, "Convex and analytically-
-// invertible dynamics with contacts and constraints", ICRA 2014.
+// gives way to nothing is 1e6 times as stiff as its bodies resist, about the loads it had before,
+// so that from one solve to the next it gives way to nothing indeed. Joints are rows of the sum
+// that stay as far open as they are. That is convex, and quadratic as long as the same points
+// press: Newton's method, with steps as long as they go down, ends after a few. Its matrix couples
+// bodies that touch or are joined. After E. Todorov, "Convex and analytically-invertible dynamics
+// with contacts and constraints", ICRA 2014.
 #pragma once
 
 #include <span>
@@ -19,12 +21,22 @@ namespace physics {
 
 class ContactNewton {
  public:
-  // Of which bodies touch. Allocates, as long as there are more of them than before.
-  void layOut(std::span<const ContactBlock> blocks, std::span<const LaneMass> masses);
-  double fill() const { return factor_.fill(); }
+  // A row of joints, by slots, 0: what does not move. It stays as far open as it is, but for what
+  // gives way by alpha; no rows: it is not at work.
+  struct Joint {
+    int a = 0, b = 0, rows = 0;
+    Mat3 linearA, linearB, turnA, turnB, alpha;
+  };
+  std::vector<Joint> joints;
 
-  // From the loads that blocks and motions have to those of a stage; friction stays as it is.
-  void solvePositions(std::span<ContactBlock> blocks, std::span<LaneMotion> motions);
+  // Of which bodies touch or have joints. Allocates, as long as there are more than before.
+  void layOut(std::span<const ContactBlock> blocks, std::span<const LaneMass> masses);
+  double productCount() const { return factor_.size() * factor_.fill(); }  // of a factor's blocks
+
+  // From the loads that blocks and motions have to those of a stage; friction stays as it is, and
+  // bodies do not move by what joints make of it: these are to follow.
+  void solvePositions(std::span<ContactBlock> blocks, std::span<LaneMotion> motions,
+                      PositionSweep which);
   void solveVelocities(std::span<ContactBlock> blocks, std::span<LaneMotion> motions);
   double gain() const { return gain_; }  // what it went down by there [J s^2]
 
@@ -52,6 +64,14 @@ class ContactNewton {
     Mat3 u, uTurn, turnU, turn;
   };
 
+  struct Along {  // of a row, on the way of a step
+    double from, change, stiffness;
+  };
+  struct Held {  // of a joint: the inverse of alpha and a little, and J u at the start
+    Mat3 stiffness;
+    Vec3 start;
+  };
+
   template <class LawOf>
   void takeRows(std::span<ContactBlock> blocks, LawOf&& lawOf);
   void solve(std::span<LaneMotion> motions);
@@ -61,9 +81,12 @@ class ContactNewton {
   double findLeast();
   void minimize(Motions& x);
   void addContact(const Contact& c, Block& between);
+  void holdJoints();
+  void addJoint(const Joint& joint, const Held& held, Block& between);
+  void giveBetween(int a, int b, const Block& of);
+  double gainOf(const Motions& x) const;
   void giveMatrix();
   void push(const Contact& c, const Row& row, double lambda, Motions& x) const;
-  double energyOf(const Motions& x) const;
 
   std::vector<int> places_;      // by slot: of its u in the matrix, its turn follows; -1: given
   std::vector<double> inverse_;  // by slot: 1/m
@@ -74,10 +97,9 @@ class ContactNewton {
   std::vector<Block> own_, between_;  // by slot, by contact
   Motions before_, x_, next_;         // but for what moves without these loads
   std::vector<Vec3> solved_;
-  struct Along {  // of a row, on the way of a step
-    double from, change, stiffness;
-  };
   std::vector<Along> along_;
+  std::vector<Held> held_;
+  std::vector<Block> betweenJoints_;
   double gain_ = 0;
 };
 

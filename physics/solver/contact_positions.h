@@ -114,8 +114,10 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSw
 }
 
 template <int kCount>
-inline void aimBlock(const ContactBlock& m, const LaneMotion* motions, PositionAims& to) {
-  const Depths<kCount> depths(m, gatherSince(m.bodyA, motions), gatherSince(m.bodyB, motions), {});
+inline void aimBlock(const ContactBlock& m, const LaneMotion* motions, PositionSweep which,
+                     PositionAims& to) {
+  const Depths<kCount> depths(m, gatherSince(m.bodyA, motions), gatherSince(m.bodyB, motions),
+                              which);
   for (int i = 0; i < kCount; ++i) {
     store(to.aim[i], depths.aim(i));
     store(to.scale[i], depths.scale(i));

@@ -47,6 +47,13 @@ void writeRows(Num<W>* to, int l, const Mat3& m, int rows) {
   }
 }
 
+template <int W>
+Mat3 readRows(const Num<W>* from, int l, int rows) {
+  Mat3 m = Mat3::Zero();
+  for (int r = 0; r < rows; ++r) m.row(r) = read(from + 3 * r, l);
+  return m;
+}
+
 // `ids`: the body of each lane, body after body.
 template <int W>
 void gatherMotion(std::span<const BodyId> ids, std::span<const Displacement> moved,

@@ -769,6 +769,35 @@ bool JointPack<W>::hasForce(int l) const {
 }
 
 template <int W>
+void JointPack<W>::addRows(std::vector<SharedRow>& rows) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const JointShape& shape = topology_->shapes[i];
+    const JointLanes<W>& row = rows_[i];
+    for (int l = 0; l < lanes_; ++l) {
+      SharedRow& of = rows.emplace_back();
+      for (int b = 0; b < shape.bodyCount; ++b) {
+        if (!shape.moves[b]) continue;
+        of.bodies[b] = ids_[shape.body[b] * W + l];
+        if (shape.isGap) {
+          of.linear[b] = (b == 0 ? 1 : -1) * Mat3::Identity();
+          of.angular[b] = skew(read(row.angular[b], l));
+        } else {
+          if (shape.hasLinear) of.linear[b] = readRows(row.linear[b], l, shape.rows);
+          if (shape.hasAngular) of.angular[b] = readRows(row.angular[b], l, shape.rows);
+        }
+      }
+      if (!(row.free.v[l] > 0)) continue;
+      of.rows = shape.rows;
+      for (int r = 0; r < shape.rows; ++r) {
+        for (int c = 0; c <= r; ++c) {
+          of.alpha(r, c) = of.alpha(c, r) = row.alpha[r * (r + 1) / 2 + c].v[l];
+        }
+      }
+    }
+  }
+}
+
+template <int W>
 void JointPack<W>::finish(Kinds& kinds, double h) {
   for (int l = 0; l < lanes_; ++l) {
     of_[l]->holdsBothWays_ = holdsBothWays(l);

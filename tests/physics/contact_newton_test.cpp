@@ -142,6 +142,44 @@ INSTANTIATE_TEST_SUITE_P(ContactNewton, UnderAHeavyFall,
                          ::testing::Values(HeavyFall{30, 0.04, 20}, HeavyFall{30, 0.04, 200},
                                            HeavyFall{3, 0.04, 500}, HeavyFall{10, 0.4, 500}));
 
+// Pairs of blocks of 1 kg that two sockets join, on one another, and 300 kg that fall on them: in
+// turns of contacts and joints the block goes 0.2 m deep, and the pile falls over.
+TEST(ContactNewton, KnowsWhatJointsHold) {
+  constexpr int kPairs = 4;
+  constexpr double kHeight = 0.2, kDrop = 0.3, kMass = 300, kTop = kPairs * kHeight;
+  Settings settings;
+  settings.gravity = Vec3(0, -9.81, 0);
+  settings.contact = ContactSettings{};
+  World world(settings);
+  addGround(world);
+  for (int k = 0; k < kPairs; ++k) {
+    const double y = (k + 0.5) * kHeight;
+    BallSocketDef joint;
+    for (const int side : {0, 1}) {
+      joint.bodies[side] = addBody(world, Box{Vec3(0.4, kHeight, 0.4)}, Vec3(0.5 * side, y, 0));
+    }
+    for (const double z : {-0.1, 0.1}) {
+      joint.at = Vec3(0.25, y, z);
+      world.add(joint);
+    }
+  }
+  const BodyId block =
+      addBody(world, Box{Vec3(1, 0.8, 1)}, Vec3(0.25, kTop + 0.4 + kDrop, 0), kMass);
+  double least = measure(world).total(), rise = 0, overlap = 0;
+  for (int k = 0; k < 300; ++k) {
+    world.step();
+    const double energy = measure(world).total();
+    rise = std::max(rise, energy - least);
+    least = std::min(least, energy);
+    overlap = std::max(overlap, world.largestOverlap());
+  }
+  EXPECT_LT(rise, 0.02 * kMass * 9.81 * kDrop);
+  EXPECT_LT(overlap, 0.01);
+  EXPECT_LT(world.constraintErrors().front().largest, 1e-8);
+  EXPECT_NEAR(world.bodies().pose[block].x.y(), kTop + 0.4, 1e-3);
+  EXPECT_LT(measure(world).kinetic, 1e-3);
+}
+
 TEST(ContactNewton, OfAnIslandKnowsOfNoOther) {
   const HeavyFall fall{10, 0.04, 50};
   World alone = makeFall(fall), accompanied = makeFall(fall, true);
