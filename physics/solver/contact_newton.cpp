@@ -149,12 +149,14 @@ void ContactNewton::holdJoints() {
   betweenJoints_.resize(joints.size());
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const Joint& j = joints[k];
+    held_[k] = {Mat3::Zero(), rateOf(j, before_)};
+    if (j.rows == 0) continue;
     Mat3 gives = j.alpha;
     const double resists = inverse_[j.a] * j.linearA.squaredNorm() + j.turnA.squaredNorm() +
                            inverse_[j.b] * j.linearB.squaredNorm() + j.turnB.squaredNorm();
     gives.diagonal().array() += kGives * resists / 3;
     for (int r = j.rows; r < 3; ++r) gives(r, r) = 1;
-    held_[k] = {inverseOrNan<Mat3>(gives), rateOf(j, before_)};
+    held_[k].stiffness = inverseOrNan<Mat3>(gives);
   }
 }
 
