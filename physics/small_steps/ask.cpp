@@ -202,7 +202,9 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch, double h)
 // island has.
 bool SmallSteps::Impl::asksAtOnce(const Model& w, const Batch& batch, BodyId root) const {
   if (learning || batch.isSoft() || !batch.softPairs.empty()) return false;
-  if (batch.isAtOnce && batch.isMixed()) return isOverloaded(w, batch);
+  if (batch.isAtOnce && batch.isMixed()) {
+    return batch.joined == Joined::kResponds || isOverloaded(w, batch);
+  }
   if (batch.isAtOnce) return newton.gain() > kMotion * whole[root];
   if (batch.sweeps < 2 || !uneven[root] || !(change[root] > kMotion * whole[root])) return false;
   const double r = change[root] / changeBefore[root], slow = 1 - std::sqrt(r);
