@@ -71,11 +71,7 @@ void SmallSteps::Impl::solveAtOnce(Batch& batch, F&& solve) {
       if (batch.responders[s].articulation >= 0) f(static_cast<int>(s));
     }
   };
-  forEachResponder([&](int slot) {
-    lookAtResponse(batch, slot);
-    std::copy_n(batch.motions[slot].u, 3, atOnceBefore[slot].u);
-    std::copy_n(batch.motions[slot].turn, 3, atOnceBefore[slot].turn);
-  });
+  forEachResponder([&](int slot) { atOnceBefore[slot] = lookAtResponse(batch, slot); });
   solve();
   forEachResponder([&](int slot) { respondTo(batch, slot, atOnceBefore[slot]); });
 }

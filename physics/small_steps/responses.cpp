@@ -146,15 +146,17 @@ void SmallSteps::Impl::respond(Batch& batch) {
 }
 
 // What the body of a slot moves by, where contacts have given others of its articulation something.
-void SmallSteps::Impl::lookAtResponse(Batch& batch, int slot) const {
+LaneStart SmallSteps::Impl::lookAtResponse(Batch& batch, int slot) const {
   const Responder& from = batch.responders[slot];
   const Six by = articulations[from.articulation].response().movedBy(from.place);
   const LaneStart& start = batch.before[slot];
   LaneMotion& motion = batch.motions[slot];
+  LaneStart now;
   for (int k = 0; k < 3; ++k) {
-    motion.u[k] = static_cast<float>(start.u[k] + by[k]);
-    motion.turn[k] = static_cast<float>(start.turn[k] + by[3 + k]);
+    now.u[k] = motion.u[k] = static_cast<float>(start.u[k] + by[k]);
+    now.turn[k] = motion.turn[k] = static_cast<float>(start.turn[k] + by[3 + k]);
   }
+  return now;
 }
 
 // What a sweep gave it beside that, as if it had no joints.

@@ -379,7 +379,7 @@ struct SmallSteps::Impl {
   void takeResponses(Batch& batch);
   void respond(Batch& batch);
   void prepareResponses(Batch& batch, ContactBlock& block, int lane) const;
-  void lookAtResponse(Batch& batch, int slot) const;
+  LaneStart lookAtResponse(Batch& batch, int slot) const;
   void respondTo(const Batch& batch, int slot, const LaneStart& before);
   void weighJoints(const Model& w, const Batch& batch, double h);
   template <class F>
@@ -532,12 +532,7 @@ void SmallSteps::Impl::sweepResponding(Batch& batch, ContactBlock& block, F&& ke
       if (batch.responders[slot].articulation >= 0) f(slot, before[l]);
     }
   };
-  forEachResponder([&](int slot, LaneStart& start) {
-    lookAtResponse(batch, slot);
-    const LaneMotion& motion = batch.motions[slot];
-    std::copy(std::begin(motion.u), std::end(motion.u), start.u);
-    std::copy(std::begin(motion.turn), std::end(motion.turn), start.turn);
-  });
+  forEachResponder([&](int slot, LaneStart& start) { start = lookAtResponse(batch, slot); });
   kernel(&block, 1);
   forEachResponder([&](int slot, const LaneStart& start) { respondTo(batch, slot, start); });
 }
