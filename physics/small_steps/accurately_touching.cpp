@@ -331,7 +331,8 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
 // They may try side by side. Joints, and what is given back at impacts, are an island's own.
 bool SmallSteps::Impl::isAlike(const Model& w, const Trial& a, const Trial& b) const {
   const Batch &of = batches[a.batch], &other = batches[b.batch];
-  const bool isFree = !of.isMixed() && !other.isMixed() && !(w.bodies.mostRestitution > 0);
+  const bool isFree = !of.isMixed() && !other.isMixed() && !of.isAtOnce && !other.isAtOnce &&
+                      !(w.bodies.mostRestitution > 0);
   return isFree && a.most == b.most && a.columns == b.columns && a.isLost == b.isLost &&
          a.isRough == b.isRough && of.sweeps == other.sweeps;
 }
@@ -417,6 +418,16 @@ void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepRep
   }
 }
 
+// A step that is not divided, and could not close its joints, is made again as the default's is.
+bool SmallSteps::Impl::makesFiner(Bodies& b, Batch& batch) {
+  if (!isOpened(batch) || 2 * batch.substeps > kMostSubsteps) return false;
+  goBack(b, batch);
+  batch.substeps *= 2;
+  batch.isAgain = true;
+  for (const int k : batch.articulations) finer[k] = batch.substeps;
+  return true;
+}
+
 // Where contacts change no column does better than the last row's substeps: what these err by is
 // the difference to all of them. True: that is small enough, or no shorter step would help.
 bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
@@ -427,7 +438,12 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   const bool isKnown = trial.columns > 1 || trial.isOneRow;
   const bool isSmall = isKnown && trial.error <= allowed;
   const bool isFew = (!batch.deformables.empty() || trial.places <= kMostPlaces) && !isLost;
-  if (!isSmall && trial.whole > kLeastPart * dt && isFew && !trial.isRough) {
+  const bool mayDivide = trial.whole > kLeastPart * dt && isFew && !trial.isRough;
+  if (!mayDivide && makesFiner(w.bodies, batch)) {
+    ++trial.told.rejected;
+    return false;
+  }
+  if (!isSmall && mayDivide) {
     ++trial.told.rejected;
     goBack(w.bodies, batch);
     if (isKnown) {
@@ -508,12 +524,16 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
   });
   for (std::size_t part = 0; part < group.size(); ++part) {
     if (ends[part] != Ended::kAccepted) continue;
-    if (group[part]->columns > 1) holdLoads(w, *group[part]);
     const double h = group[part]->whole / group[part]->steps;
+    if (group[part]->columns > 1) {
+      holdLoads(w, *group[part]);
+    } else {
+      for (const int k : batches[group[part]->batch].contacts) holdNoMore(contacts[k], h);
+    }
     batch.joints.finish(w.kinds, h);
     for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
   }
-  if (asks) ask(w, batch, w.settings.dt / batch.substeps);
+  if (asks) ask(w, batch);
   std::size_t kept = 0;
   for (std::size_t part = 0; part < group.size(); ++part) {
     if (ends[part] == Ended::kFurther) group[kept++] = group[part];

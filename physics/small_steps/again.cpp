@@ -23,22 +23,26 @@ void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch, std::size_t k) {
   meanSpins[i] = batch.kept[k].meanSpin;
 }
 
+bool SmallSteps::Impl::isOpened(const Batch& batch) const {
+  return std::any_of(batch.articulations.begin(), batch.articulations.end(),
+                     [&](int k) { return articulations[k].isOpened(); });
+}
+
 // Islands with joints that came apart, by their first bodies. What sweeps and ropes end with is
 // where they start from: islands with those in them go on as they are.
 bool SmallSteps::Impl::findOpened(const Batch& batch) {
-  const auto isOpened = [&](int k) { return articulations[k].isOpened(); };
-  if (std::none_of(batch.articulations.begin(), batch.articulations.end(), isOpened)) return false;
+  if (!isOpened(batch)) return false;
   const auto rootOf = [&](const auto& part) { return islands[part.bodies().front()]; };
   const bool mayHelp = 2 * batch.substeps <= kMostSubsteps;
   for (const BodyId i : batch.bodies) opened[islands[i]] = 0;
   for (const int k : batch.articulations) {
-    if (isOpened(k) && mayHelp) opened[rootOf(articulations[k])] = 1;
+    if (articulations[k].isOpened() && mayHelp) opened[rootOf(articulations[k])] = 1;
   }
   for (const int k : batch.deformables) opened[rootOf(deformables[k])] = 0;
   bool any = false;
   for (const int k : batch.articulations) {
     const bool isAgain = opened[rootOf(articulations[k])] != 0;
-    if (isAgain && isOpened(k)) finer[k] = 2 * batch.substeps;
+    if (isAgain && articulations[k].isOpened()) finer[k] = 2 * batch.substeps;
     articulations[k].setOpened(isAgain);
     any = any || isAgain;
   }

@@ -34,15 +34,11 @@ int substepsForTurn(double turn) {
 
 }  // namespace
 
-// The sag that is small enough for a contact [m]: where steps by an accuracy resolve what the
-// island does, what they may err by.
+// The sag that is small enough for a contact [m], by an accuracy too: columns buckle by it.
 double SmallSteps::Impl::smallSag(const Model& w, const KeptContact& c, double size) const {
   const Bodies& b = w.bodies;
   const double way = w.settings.dt * (b.velocity[c.a].v - b.velocity[c.b].v).norm();
-  const bool isKnown = w.settings.accuracy && choices[rootOf(w, c)].resolves();
-  const double asked = isKnown ? kShareOfFrame * *w.settings.accuracy : 0;
-  return std::max(std::max(kLargestSag, asked) * size,
-                  std::min(kLargestSagOfWay * way, kLargestStrain * size));
+  return std::max(kLargestSag * size, std::min(kLargestSagOfWay * way, kLargestStrain * size));
 }
 
 // What the sag of an island is to be, as a share of what is small.
@@ -124,6 +120,11 @@ void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch) {
   }
 }
 
+// Of the last substep's length, in a step: where an accuracy chose it, another number than asked.
+int SmallSteps::Impl::takenBy(const Model& w, BodyId i) const {
+  return std::max(static_cast<int>(std::lround(w.settings.dt / length[i])), 1);
+}
+
 void SmallSteps::Impl::want(BodyId body, int count, SubstepLaw by) {
   if (count <= asked[body]) return;
   asked[body] = count;
@@ -143,38 +144,41 @@ void SmallSteps::Impl::askSoft(const Model& w, const Batch& batch) {
   for (const BodyId i : batch.bodies) {
     if (islands[i] != i || !(load[i] > 0)) continue;
     const double off = change[i] / load[i] / kLargestStrain;
-    want(i, substepsFor(batch.substeps, off), SubstepLaw::kOverlap);
+    want(i, substepsFor(takenBy(w, i), off), SubstepLaw::kOverlap);
   }
 }
 
 // What joints pull turns bodies back, across what pulls: they swing by [omega h]^2 = I^-1 K, which
 // has two directions. Of swings that take less than two substeps nothing is left to follow.
-void SmallSteps::Impl::askJoints(const Batch& batch) {
+void SmallSteps::Impl::askJoints(const Model& w, const Batch& batch) {
   for (const int k : batch.articulations) {
     const auto bodies = articulations[k].bodies();
     double most = 0;
     for (const BodyId i : bodies) {
       most = std::max(most, 0.5 * stiffness[i].cwiseProduct(masses[i].inertia).sum());
     }
-    want(bodies.front(), substepsFor(batch.substeps, most / (kPi * kPi)), SubstepLaw::kPull);
+    const int taken = takenBy(w, bodies.front());
+    want(bodies.front(), substepsFor(taken, most / (kPi * kPi)), SubstepLaw::kPull);
   }
 }
 
 // The same of what deformables are off by.
-void SmallSteps::Impl::askDeformables(Model& w, const Batch& batch, double h) {
+void SmallSteps::Impl::askDeformables(Model& w, const Batch& batch) {
   for (const BodyId i : batch.bodies) asked[i] = 0;
   for (const int k : batch.deformables) {
-    const double off = deformables[k].strain(w.kinds, {w.bodies.pose, w.bodies.start, h});
     const BodyId first = deformables[k].bodies().front();
-    want(first, substepsFor(batch.substeps, off / kLargestStrain), SubstepLaw::kStrain);
+    const int taken = takenBy(w, first);
+    const double h = length[first];
+    const double off = deformables[k].strain(w.kinds, {w.bodies.pose, w.bodies.start, h});
+    want(first, substepsFor(taken, off / kLargestStrain), SubstepLaw::kStrain);
     if (!deformables[k].isDirect()) continue;
     const double turn = deformables[k].turn({w.bodies.pose, w.bodies.start, h});
-    want(first, substepsForTurn(batch.substeps * turn), SubstepLaw::kTurn);
+    want(first, substepsForTurn(taken * turn), SubstepLaw::kTurn);
   }
 }
 
 // Contacts see the articulated mass of what carries much more than it weighs.
-void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch, double h) {
+void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch) {
   if (batch.articulations.empty()) return;
   const Bodies& b = w.bodies;
   const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
@@ -191,7 +195,7 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch, double h)
   for (const int k : batch.articulations) {
     if (!articulations[k].holdsBothWays() || !(g > 0)) continue;
     for (const BodyId i : articulations[k].bodies()) {
-      if (load[i] > kMostCarried * b.mass[i] * g * h * h) responding[k] = 1;
+      if (load[i] > kMostCarried * b.mass[i] * g * length[i] * length[i]) responding[k] = 1;
     }
   }
 }
@@ -212,10 +216,10 @@ bool SmallSteps::Impl::asksAtOnce(const Model& w, const Batch& batch, BodyId roo
 }
 
 // Sag goes with h^2; what the last sweep changed tells whether an island is at rest.
-void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
-  weighJoints(w, batch, h);
-  askDeformables(w, batch, h);
-  askJoints(batch);
+void SmallSteps::Impl::ask(Model& w, const Batch& batch) {
+  weighJoints(w, batch);
+  askDeformables(w, batch);
+  askJoints(w, batch);
   askSoft(w, batch);
   weighMotion(w, batch);
   weighContacts(w, batch);
@@ -224,7 +228,7 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch, double h) {
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {
-      want(i, substepsFor(substeps[root], sagOf(root)), SubstepLaw::kSag);
+      want(i, substepsFor(takenBy(w, root), sagOf(root)), SubstepLaw::kSag);
     }
     askedSweeps[i] = batch.sweeps;
     askedAtOnce[i] = root == i && asksAtOnce(w, batch, root);

@@ -33,9 +33,10 @@ bool SmallSteps::Impl::isOverloaded(const Model& w, const Batch& batch) const {
   });
 }
 
-// Once rows are prepared. Joints are not evaluated yet.
+// Once rows are prepared. Joints are not evaluated yet. Of one contact a sweep finds the load.
 void SmallSteps::Impl::layAtOnce(Batch& batch) {
-  batch.isAtOnce = batch.isAtOnce && !batch.isSoft() && batch.softPairs.empty();
+  const bool isOne = batch.contacts.size() == 1 && !batch.isMixed();
+  batch.isAtOnce = batch.isAtOnce && !isOne && !batch.isSoft() && batch.softPairs.empty();
   if (!batch.isAtOnce) return;
   takeJoints(batch);
   newton.layOut(batch.blocks, batch.masses);

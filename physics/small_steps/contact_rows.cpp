@@ -197,7 +197,16 @@ void SmallSteps::Impl::takeOver(const Bodies& b, const ContactBlock& block, int 
 
 // What carries less than it gives way about would stand off the surface: where a load has gone,
 // what is held goes down with it, in the same parts.
-//
+void SmallSteps::Impl::holdNoMore(KeptContact& c, double h) {
+  double sum = 0, held = 0;
+  for (int k = 0; k < c.count; ++k) {
+    sum += c.stayed(k) / (h * h);
+    held += c.held[k];
+  }
+  if (!(sum < held)) return;
+  for (double& of : c.held) of *= sum / held;
+}
+
 // Substeps do not follow what springs of jointed bodies are drawn by, nor those of light ones under
 // heavy ones: a hand that carries a heap would stand in the floor by F h^2 / m of its own mass.
 // What such a contact carries from step to step beyond the weight of the lighter body becomes what
@@ -210,18 +219,16 @@ void SmallSteps::Impl::holdCarried(const Model& w, const Batch& batch, double h)
   const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
   for (const int contact : batch.contacts) {
     KeptContact& c = contacts[contact];
+    if (!isJointed(c) && !batch.isAtOnce) {
+      holdNoMore(c, h);
+      continue;
+    }
     std::array<double, Manifold::kMaxPoints> stayed{};
     double sum = 0, held = 0;
     for (int k = 0; k < c.count; ++k) {
       stayed[k] = c.stayed(k) / (h * h);
       sum += stayed[k];
       held += c.held[k];
-    }
-    if (!isJointed(c) && !batch.isAtOnce) {
-      if (sum < held) {
-        for (double& of : c.held) of *= sum / held;
-      }
-      continue;
     }
     const double weight = g / (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
     const double beyond = sum > weight ? 1 - weight / sum : 0;

@@ -140,8 +140,7 @@ bool SmallSteps::Impl::isHit(const Model& w, const KeptContact& c) {
 // further where no contact pushes. So are islands whose contacts know other things of joints.
 SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, BodyId root) {
   const bool touches = held[root] == Held::kTouching;
-  const bool isAtOnce =
-      touches && atOnce[root] && !deforms[root] && !hangs[root] && !w.settings.accuracy;
+  const bool isAtOnce = touches && atOnce[root] && !deforms[root] && !hangs[root];
   // Its steps are its own, or its loads.
   const bool isAlone = (w.settings.accuracy && (touches || deforms[root])) || isAtOnce;
   for (std::size_t k = 0; k < batchCount && !isAlone; ++k) {

@@ -125,7 +125,7 @@ void SmallSteps::Impl::learnLoads(Model& w, Batch& batch) {
   learnt = {};
   batch.sweeps = 1;
   for (int i = 0; i < 2; ++i) takeOver(w, batch);  // as if it had been for two steps
-  ask(w, batch, h);
+  ask(w, batch);
   for (const int k : batch.contacts) {
     KeptContact& c = contacts[k];
     for (int p = 0; p < c.count; ++p) c.held[p] = c.lambda[p] / (h * h);

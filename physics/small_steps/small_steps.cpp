@@ -119,7 +119,7 @@ void SmallSteps::Impl::runSubsteps(Model& w, Batch& batch, double h, int count,
 void SmallSteps::Impl::finish(Model& w, Batch& batch, double h) {
   takeOver(w, batch);
   holdCarried(w, batch, h);
-  ask(w, batch, h);
+  ask(w, batch);
   batch.joints.finish(w.kinds, h);
   for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
 }

@@ -381,7 +381,7 @@ struct SmallSteps::Impl {
   void prepareResponses(Batch& batch, ContactBlock& block, int lane) const;
   LaneStart lookAtResponse(Batch& batch, int slot) const;
   void respondTo(const Batch& batch, int slot, const LaneStart& before);
-  void weighJoints(const Model& w, const Batch& batch, double h);
+  void weighJoints(const Model& w, const Batch& batch);
   template <class F>
   void sweepResponding(Batch& batch, ContactBlock& block, F&& kernel);
   template <class F>
@@ -456,6 +456,7 @@ struct SmallSteps::Impl {
   void renew(const Model& w, const Batch& batch, ContactBlock& block) const;
   void renewTurned(Model& w, Batch& batch);
   void takeOver(Model& w, Batch& batch);
+  static void holdNoMore(KeptContact& c, double h);
   void holdCarried(const Model& w, const Batch& batch, double h);
   void takeOver(const Bodies& b, const ContactBlock& block, int l);
   double sagOf(BodyId root) const;
@@ -468,16 +469,19 @@ struct SmallSteps::Impl {
   Weighed weigh(const Model& w, const Batch& batch, const ContactBlock& block, int l) const;
   void weighContacts(Model& w, const Batch& batch);
   bool asksAtOnce(const Model& w, const Batch& batch, BodyId root) const;
-  void askJoints(const Batch& batch);
+  void askJoints(const Model& w, const Batch& batch);
   void askSoft(const Model& w, const Batch& batch);
-  void askDeformables(Model& w, const Batch& batch, double h);
+  void askDeformables(Model& w, const Batch& batch);
   void keepStart(const Model& w, Batch& batch);
+  bool isOpened(const Batch& batch) const;
+  bool makesFiner(Bodies& b, Batch& batch);
   bool findOpened(const Batch& batch);
   void moveTo(Model& w, Batch& batch, Batch& again);
   void makeAgain(Model& w, std::size_t index);
   void askFiner(const Model& w, const Batch& batch);
+  int takenBy(const Model& w, BodyId i) const;
   void want(BodyId body, int count, SubstepLaw by);
-  void ask(Model& w, const Batch& batch, double h);
+  void ask(Model& w, const Batch& batch);
   void fly(Model& w);
   void fly(const Model& w, BodyId i, double dt, Pose& pose, Velocity& v) const;
   double gapAtTrial(const Bodies& b, const KeptContact& c);
