@@ -58,7 +58,7 @@ bool SymmetricStep::resolvesForces() const {
 // Where the step ends by lambda; the largest of what is then open.
 double SymmetricStep::tryOut(double h, const Surroundings& world, const TrialPoses& trial) {
   sum();
-  move(h, world);
+  if (!move(h, world)) return std::numeric_limits<double>::infinity();
   put(to_, trial.end);
   lookAt(to_, trial.end, trial, world, h);
   lookAtForces(world, trial, h);

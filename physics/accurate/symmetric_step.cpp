@@ -116,12 +116,13 @@ void SymmetricStep::begin(double h, const Surroundings& world) {
     Spin& spin = spins_[i];
     spin.pushed = momentumOf(i) + 0.5 * h * world.loads[bodies_[i]].torque;
     spin.turned = present_.state.pose[i].q.toRotationMatrix();
-    spin.omega = spin.mean = spin.turned.transpose() * present_.state.velocity[i].w;
+    spin.start = spin.omega = spin.mean = spin.turned.transpose() * present_.state.velocity[i].w;
   }
 }
 
-// To the end of the step, by lambda.
-void SymmetricStep::move(double h, const Surroundings& world) {
+// To the end of the step, by lambda. False: joints turn a body by half a turn and more, which no
+// step of that length follows.
+bool SymmetricStep::move(double h, const Surroundings& world) {
   const IslandState& from = present_.state;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!moves_[i]) continue;
@@ -131,6 +132,7 @@ void SymmetricStep::move(double h, const Surroundings& world) {
     Spin& spin = spins_[i];
     momentum_[i] = spin.pushed + twist_[i] / h;
     const Vec3 omega = inverseInertia_[i].cwiseProduct(spin.turned.transpose() * momentum_[i]);
+    if (!(h * (omega - spin.start).norm() < kPi)) return false;
     const Vec3 guess = spin.mean + (omega - spin.omega);
     spin.omega = omega;
     spin.mean = isIsotropic(inertia_[i]) ? omega : freeTurn(inertia_[i], omega, h, 0.5, guess).mean;
@@ -138,6 +140,7 @@ void SymmetricStep::move(double h, const Surroundings& world) {
     to_.pose[i].q = exponential(h * (spin.turned * spin.mean)) * q;
     renormalize(to_.pose[i].q);
   }
+  return true;
 }
 
 // Velocities at the end: what is halfway, and the other half.

@@ -110,8 +110,8 @@ class SymmetricStep {
   };
   // A body's, in the tries of a step.
   struct Spin {
-    Mat3 turned;               // from its own frame, where the step begins
-    Vec3 pushed, omega, mean;  // kg m^2/s; rad/s in its own frame, halfway
+    Mat3 turned;                      // from its own frame, where the step begins
+    Vec3 pushed, start, omega, mean;  // kg m^2/s; rad/s in its own frame: at the start, halfway
   };
   // All that a step changes.
   struct Present {
@@ -136,7 +136,7 @@ class SymmetricStep {
   void guess(double h);
   void sum();
   void begin(double h, const Surroundings& world);
-  void move(double h, const Surroundings& world);
+  bool move(double h, const Surroundings& world);
   bool resolvesForces() const;
   double mobilityOf(std::size_t row, const IslandRow& of) const;
   double tryOut(double h, const Surroundings& world, const TrialPoses& trial);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
+#include "physics/small_steps/island_plan.h"
 #include "physics/solver/lane_mass.h"
 #include "physics/world.h"
 #include "physics/world/measure.h"
@@ -100,11 +102,13 @@ TEST(ContactNewton, HoldsNothingThatLeaves) {
 struct HeavyFall {
   int count;
   double height, mass;
+  std::optional<double> accuracy = {};
 };
 World makeFall(const HeavyFall& fall, bool withNeighbour = false) {
   Settings settings;
   settings.gravity = Vec3(0, -9.81, 0);
   settings.contact = ContactSettings{};
+  settings.accuracy = fall.accuracy;
   World world(settings);
   addGround(world);
   const Vec3 size(1, fall.height, 1);
@@ -140,7 +144,26 @@ TEST_P(UnderAHeavyFall, NothingIsPressedFlatNorThrown) {
 // and back, the third falls through them.
 INSTANTIATE_TEST_SUITE_P(ContactNewton, UnderAHeavyFall,
                          ::testing::Values(HeavyFall{30, 0.04, 20}, HeavyFall{30, 0.04, 200},
-                                           HeavyFall{3, 0.04, 500}, HeavyFall{10, 0.4, 500}));
+                                           HeavyFall{3, 0.04, 500}, HeavyFall{10, 0.4, 500},
+                                           HeavyFall{30, 0.04, 200, 1e-1},
+                                           HeavyFall{30, 0.04, 200, 1e-2}));
+
+// Where nothing has weight a load tells of no burden: what is pushed on is not hit again.
+TEST(ContactNewton, OfWhatIsPushedInSpaceIsNotAskedFor) {
+  Settings settings;
+  settings.contact = ContactSettings{};
+  World world(settings);
+  const BodyId pushes = addBody(world, Box{Vec3::Ones()}, Vec3(-0.2, 0, 0), 10);
+  for (const double x : {1.0, 2.0}) addBody(world, Box{Vec3::Ones()}, Vec3(x, 0, 0));
+  int taken = 0;
+  const IslandListening hear([&](const IslandPlan& plan) { taken += plan.atOnce ? 1 : 0; });
+  for (int k = 0; k < 120; ++k) {
+    world.applyForce(pushes, Vec3(20, 0.3, 0.1), Vec3(0.1, 0.2, 0.3));
+    world.step();
+  }
+  EXPECT_GT(taken, 0);  // where it meets them
+  EXPECT_LT(taken, 12) << "of 120";
+}
 
 // Pairs of blocks of 1 kg that two sockets join, on one another, and 300 kg that fall on them: in
 // turns of contacts and joints the block goes 0.2 m deep, and the pile falls over.
