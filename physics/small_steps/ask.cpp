@@ -51,7 +51,7 @@ double SmallSteps::Impl::sagOf(BodyId root) const {
 // The energy of islands, by their first body, that the last sweep may change.
 void SmallSteps::Impl::weighMotion(const Model& w, const Batch& batch) {
   const Bodies& b = w.bodies;
-  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
+  const double g = gravityOf(w);
   for (const BodyId i : batch.bodies) {
     energy[i] = whole[i] = change[i] = changeBefore[i] = 0;
     load[i] = sag[i] = drawn[i] = carried[i] = weight[i] = 0;
@@ -181,7 +181,7 @@ void SmallSteps::Impl::askDeformables(Model& w, const Batch& batch) {
 void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch) {
   if (batch.articulations.empty()) return;
   const Bodies& b = w.bodies;
-  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
+  const double g = gravityOf(w);
   for (const int k : batch.articulations) {
     responding[k] = 0;
     for (const BodyId i : articulations[k].bodies()) load[i] = 0;

@@ -22,7 +22,7 @@ double SmallSteps::Impl::lightMass(const Bodies& b, const KeptContact& c) const 
 
 // Such a body carries much more than it weighs; what has no weight is hit, and lies on nothing.
 bool SmallSteps::Impl::isOverloaded(const Model& w, const Batch& batch) const {
-  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
+  const double g = gravityOf(w);
   if (!(g > 0)) return false;
   return std::any_of(batch.contacts.begin(), batch.contacts.end(), [&](int k) {
     const KeptContact& c = contacts[k];

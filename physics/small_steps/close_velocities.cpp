@@ -44,7 +44,7 @@ void SmallSteps::Impl::watchVelocities(const Batch& batch) {
 
 // Which islands the last sweep closed. True: none is left open.
 bool SmallSteps::Impl::closeParts(const Model& w, const Batch& batch) {
-  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
+  const double g = gravityOf(w);
   for (std::size_t s = 1; s < batch.motions.size(); ++s) {
     Closing& of = closings[batch.partOf[s]];
     if (!of.isOpen) continue;

@@ -216,7 +216,7 @@ void SmallSteps::Impl::holdNoMore(KeptContact& c, double h) {
 // substeps a second.
 void SmallSteps::Impl::holdCarried(const Model& w, const Batch& batch, double h) {
   constexpr double kShare = 1.0 / 32, kSame = 0.99;
-  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
+  const double g = gravityOf(w);
   for (const int contact : batch.contacts) {
     KeptContact& c = contacts[contact];
     if (!isJointed(c) && !batch.isAtOnce) {

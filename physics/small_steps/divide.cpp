@@ -133,7 +133,7 @@ int SmallSteps::Impl::substepsForApproach(const Model& w, const KeptContact& c) 
 // Faster than by falling for two steps. Where nothing falls nothing is pressed flat, and sweeps
 // bring what is left of a hit in the steps that follow.
 bool SmallSteps::Impl::isHit(const Model& w, const KeptContact& c) {
-  const double g = w.settings.gravity ? w.settings.gravity->norm() : 0;
+  const double g = gravityOf(w);
   return g > 0 && approachOf(w, c) > 2 * g * w.settings.dt;
 }
 

@@ -78,7 +78,9 @@ constexpr int kLeastSwept = 4, kLeastSolved = 2, kMostSubsteps = 64;
 // Of its weight, what a body may carry while sweeps of its own mass, or turns with joints, find it.
 constexpr double kMostCarried = 4;
 
-// Products of blocks in a factor of contacts: those that take more are swept, whatever they carry.
+// Products of 3 x 3 blocks in a factor of contacts, a budget of time: 2.7e5 multiplications. Those
+// that take more are swept, whatever they carry. Without it 216 cubes under 1 t that fall go 0.1 mm
+// deep, not 57, at 41 ms a step, not 7, and at 0.7 s where it hits.
 constexpr double kMostProductsAtOnce = 1e4;
 
 constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps of its thickness
@@ -184,6 +186,10 @@ void emptyLane(ContactBlock& block, int l);
 // `isWithin`: a step, not where it starts and the collider has just looked.
 void placeLane(const KeptContact& c, std::span<const Pose> pose, bool isWithin, ContactBlock& block,
                int l);
+
+inline double gravityOf(const Model& w) {  // m/s^2
+  return w.settings.gravity ? w.settings.gravity->norm() : 0;
+}
 
 // Of an accuracy's step: a force that is constant.
 template <class C>
