@@ -69,16 +69,11 @@ using Kinds = std::tuple<                       //
     Kind<PointOnLineDef, PointOnLine>,          //
     Kind<BallSocketDef, BallSocket>>;           //
 
-template <class F, class K>
-[[gnu::noinline]] void callWith(F& f, K& kind) {
-  f(kind);
-}
-// Calls f with each of them, by itself: what is made of all in one function takes longer to compile
-// than the sum of its parts. By index: std::apply asks of each f if it throws, a tenth of a file's
+// Calls f with each of them. By index: std::apply asks of each f if it throws, a tenth of a file's
 // time to compile.
 template <class K, class F, std::size_t... kIndex>
 void forEachKind(K& kinds, F& f, std::index_sequence<kIndex...>) {
-  (callWith(f, std::get<kIndex>(kinds)), ...);
+  (f(std::get<kIndex>(kinds)), ...);
 }
 template <class F>
 void forEachKind(Kinds& kinds, F&& f) {
