@@ -144,19 +144,38 @@ void ContactNewton::start(std::span<const LaneMotion> motions) {
 }
 
 // Of what their bodies resist, joints give way by as little as contacts do.
+Mat3 ContactNewton::stiffnessOf(const Joint& j) const {
+  Mat3 gives = j.alpha;
+  const double resists = inverse_[j.a] * j.linearA.squaredNorm() + j.turnA.squaredNorm() +
+                         inverse_[j.b] * j.linearB.squaredNorm() + j.turnB.squaredNorm();
+  gives.diagonal().array() += kGives * resists / 3;
+  for (int r = j.rows; r < 3; ++r) gives(r, r) = 1;
+  return inverseOrNan<Mat3>(gives);
+}
+
+// What is the same in all steps of Newton's.
 void ContactNewton::holdJoints() {
   held_.resize(joints.size());
-  betweenJoints_.resize(joints.size());
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const Joint& j = joints[k];
-    held_[k] = {Mat3::Zero(), rateOf(j, before_)};
-    if (j.rows == 0) continue;
-    Mat3 gives = j.alpha;
-    const double resists = inverse_[j.a] * j.linearA.squaredNorm() + j.turnA.squaredNorm() +
-                           inverse_[j.b] * j.linearB.squaredNorm() + j.turnB.squaredNorm();
-    gives.diagonal().array() += kGives * resists / 3;
-    for (int r = j.rows; r < 3; ++r) gives(r, r) = 1;
-    held_[k].stiffness = inverseOrNan<Mat3>(gives);
+    Held& held = held_[k];
+    held.stiffness = j.rows > 0 ? stiffnessOf(j) : Mat3::Zero().eval();
+    held.start = rateOf(j, before_);
+    const auto shareOf = [&](const Mat3& linear, const Mat3& turn, Share& share) {
+      const Mat3 kLinear = held.stiffness * linear, kTurn = held.stiffness * turn;
+      share.of.u.noalias() = linear.transpose() * kLinear;
+      share.of.turnU.noalias() = turn.transpose() * kLinear;
+      share.of.turn.noalias() = turn.transpose() * kTurn;
+      share.u.noalias() = kLinear.transpose() * held.start;
+      share.turn.noalias() = kTurn.transpose() * held.start;
+    };
+    shareOf(j.linearA, j.turnA, held.a);
+    shareOf(j.linearB, j.turnB, held.b);
+    const Mat3 kLinear = held.stiffness * j.linearB, kTurn = held.stiffness * j.turnB;
+    held.between.u.noalias() = j.linearA.transpose() * kLinear;
+    held.between.uTurn.noalias() = j.linearA.transpose() * kTurn;
+    held.between.turnU.noalias() = j.turnA.transpose() * kLinear;
+    held.between.turn.noalias() = j.turnA.transpose() * kTurn;
   }
 }
 
@@ -212,24 +231,14 @@ void ContactNewton::addContact(const Contact& c, Block& between) {
   addOwn(c.b, wB, turnB, -1, aimB);
 }
 
-void ContactNewton::addJoint(const Joint& j, const Held& held, Block& between) {
-  const auto addOwn = [&](int slot, const Mat3& linear, const Mat3& turn) {
-    const int place = places_[slot];
-    if (place < 0) return;
-    const Mat3 kLinear = held.stiffness * linear, kTurn = held.stiffness * turn;
-    own_[slot].u += linear.transpose() * kLinear;
-    own_[slot].turnU += turn.transpose() * kLinear;
-    own_[slot].turn += turn.transpose() * kTurn;
-    solved_[place] += kLinear.transpose() * held.start;
-    solved_[place + 1] += kTurn.transpose() * held.start;
-  };
-  addOwn(j.a, j.linearA, j.turnA);
-  addOwn(j.b, j.linearB, j.turnB);
-  const Mat3 kLinear = held.stiffness * j.linearB, kTurn = held.stiffness * j.turnB;
-  between.u = j.linearA.transpose() * kLinear;
-  between.uTurn = j.linearA.transpose() * kTurn;
-  between.turnU = j.turnA.transpose() * kLinear;
-  between.turn = j.turnA.transpose() * kTurn;
+void ContactNewton::addShare(int slot, const Share& share) {
+  const int place = places_[slot];
+  if (place < 0) return;
+  own_[slot].u += share.of.u;
+  own_[slot].turnU += share.of.turnU;
+  own_[slot].turn += share.of.turn;
+  solved_[place] += share.u;
+  solved_[place + 1] += share.turn;
 }
 
 void ContactNewton::giveBetween(int slotA, int slotB, const Block& of) {
@@ -255,7 +264,7 @@ void ContactNewton::giveMatrix() {
     giveBetween(contacts_[k].a, contacts_[k].b, between_[k]);
   }
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    giveBetween(joints[k].a, joints[k].b, betweenJoints_[k]);
+    giveBetween(joints[k].a, joints[k].b, held_[k].between);
   }
 }
 
@@ -267,7 +276,10 @@ void ContactNewton::minimize(Motions& x) {
     if (places_[s] >= 0) own_[s] = {one / inverse_[s], zero, zero, one};
   }
   for (std::size_t k = 0; k < contacts_.size(); ++k) addContact(contacts_[k], between_[k]);
-  for (std::size_t k = 0; k < joints.size(); ++k) addJoint(joints[k], held_[k], betweenJoints_[k]);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    addShare(joints[k].a, held_[k].a);
+    addShare(joints[k].b, held_[k].b);
+  }
   giveMatrix();
   factor_.factorize();
   factor_.solve(solved_);

@@ -67,9 +67,15 @@ class ContactNewton {
   struct Along {  // of a row, on the way of a step
     double from, change, stiffness;
   };
-  struct Held {  // of a joint: the inverse of alpha and a little, and J u at the start
+  struct Share {  // of a joint in the matrix and the right-hand side of one of its bodies
+    Block of;
+    Vec3 u, turn;
+  };
+  struct Held {  // of a joint: the inverse of alpha and a little, J u at the start; what follows
     Mat3 stiffness;
     Vec3 start;
+    Share a, b;
+    Block between;
   };
 
   template <class LawOf>
@@ -81,8 +87,9 @@ class ContactNewton {
   double findLeast();
   void minimize(Motions& x);
   void addContact(const Contact& c, Block& between);
+  Mat3 stiffnessOf(const Joint& joint) const;
   void holdJoints();
-  void addJoint(const Joint& joint, const Held& held, Block& between);
+  void addShare(int slot, const Share& share);
   void giveBetween(int a, int b, const Block& of);
   double gainOf(const Motions& x) const;
   void giveMatrix();
@@ -99,7 +106,6 @@ class ContactNewton {
   std::vector<Vec3> solved_;
   std::vector<Along> along_;
   std::vector<Held> held_;
-  std::vector<Block> betweenJoints_;
   double gain_ = 0;
 };
 
