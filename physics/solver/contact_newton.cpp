@@ -153,6 +153,14 @@ Mat3 ContactNewton::stiffnessOf(const Joint& j) const {
   return inverseOrNan<Mat3>(gives);
 }
 
+// By the rows of a joint for one of its bodies, and these times the joint's stiffness.
+ContactNewton::Share ContactNewton::shareOf(const Mat3& linear, const Mat3& turn,
+                                            const Mat3& kLinear, const Mat3& kTurn,
+                                            const Vec3& start) {
+  return {linear.transpose() * kLinear, turn.transpose() * kLinear, turn.transpose() * kTurn,
+          kLinear.transpose() * start, kTurn.transpose() * start};
+}
+
 // What is the same in all steps of Newton's.
 void ContactNewton::holdJoints() {
   held_.resize(joints.size());
@@ -161,21 +169,14 @@ void ContactNewton::holdJoints() {
     Held& held = held_[k];
     held.stiffness = j.rows > 0 ? stiffnessOf(j) : Mat3::Zero().eval();
     held.start = rateOf(j, before_);
-    const auto shareOf = [&](const Mat3& linear, const Mat3& turn, Share& share) {
-      const Mat3 kLinear = held.stiffness * linear, kTurn = held.stiffness * turn;
-      share.of.u.noalias() = linear.transpose() * kLinear;
-      share.of.turnU.noalias() = turn.transpose() * kLinear;
-      share.of.turn.noalias() = turn.transpose() * kTurn;
-      share.u.noalias() = kLinear.transpose() * held.start;
-      share.turn.noalias() = kTurn.transpose() * held.start;
-    };
-    shareOf(j.linearA, j.turnA, held.a);
-    shareOf(j.linearB, j.turnB, held.b);
-    const Mat3 kLinear = held.stiffness * j.linearB, kTurn = held.stiffness * j.turnB;
-    held.between.u.noalias() = j.linearA.transpose() * kLinear;
-    held.between.uTurn.noalias() = j.linearA.transpose() * kTurn;
-    held.between.turnU.noalias() = j.turnA.transpose() * kLinear;
-    held.between.turn.noalias() = j.turnA.transpose() * kTurn;
+    const Mat3 kLinearOfA = held.stiffness * j.linearA, kTurnOfA = held.stiffness * j.turnA;
+    const Mat3 kLinearOfB = held.stiffness * j.linearB, kTurnOfB = held.stiffness * j.turnB;
+    held.a = shareOf(j.linearA, j.turnA, kLinearOfA, kTurnOfA, held.start);
+    held.b = shareOf(j.linearB, j.turnB, kLinearOfB, kTurnOfB, held.start);
+    held.between.u.noalias() = j.linearA.transpose() * kLinearOfB;
+    held.between.uTurn.noalias() = j.linearA.transpose() * kTurnOfB;
+    held.between.turnU.noalias() = j.turnA.transpose() * kLinearOfB;
+    held.between.turn.noalias() = j.turnA.transpose() * kTurnOfB;
   }
 }
 
@@ -234,11 +235,11 @@ void ContactNewton::addContact(const Contact& c, Block& between) {
 void ContactNewton::addShare(int slot, const Share& share) {
   const int place = places_[slot];
   if (place < 0) return;
-  own_[slot].u += share.of.u;
-  own_[slot].turnU += share.of.turnU;
-  own_[slot].turn += share.of.turn;
-  solved_[place] += share.u;
-  solved_[place + 1] += share.turn;
+  own_[slot].u += share.u;
+  own_[slot].turnU += share.turnU;
+  own_[slot].turn += share.turn;
+  solved_[place] += share.pull;
+  solved_[place + 1] += share.pullTurn;
 }
 
 void ContactNewton::giveBetween(int slotA, int slotB, const Block& of) {

@@ -68,8 +68,8 @@ class ContactNewton {
     double from, change, stiffness;
   };
   struct Share {  // of a joint in the matrix and the right-hand side of one of its bodies
-    Block of;
-    Vec3 u, turn;
+    Mat3 u, turnU, turn;
+    Vec3 pull, pullTurn;
   };
   struct Held {  // of a joint: the inverse of alpha and a little, J u at the start; what follows
     Mat3 stiffness;
@@ -88,6 +88,8 @@ class ContactNewton {
   void minimize(Motions& x);
   void addContact(const Contact& c, Block& between);
   Mat3 stiffnessOf(const Joint& joint) const;
+  static Share shareOf(const Mat3& linear, const Mat3& turn, const Mat3& kLinear, const Mat3& kTurn,
+                       const Vec3& start);
   void holdJoints();
   void addShare(int slot, const Share& share);
   void giveBetween(int a, int b, const Block& of);
