@@ -111,7 +111,7 @@ class World {
   std::vector<std::array<BodyId, 2>> ignoredPairs() const;  // first < second, sorted
   std::vector<VolumeReport> volumes() const;
   std::vector<ArmReport> arms() const;
-  double largestOverlap() const;             // m, over the contacts at the present poses; >= 0
+  double largestOverlap() const;             // m, of what touches, at the present poses; >= 0
   int contactCount() const;                  // points that carry an impulse
   std::vector<EffectMemory> memory() const;  // what is held now, "bodies" first
   bool isAsleep(BodyId body) const;

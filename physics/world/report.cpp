@@ -56,6 +56,18 @@ void forEachPair(const WorldState& w, F&& f) {
   }
 }
 
+// Of the two shapes where they are now: since their contacts were looked for they may have gone
+// past each other, and by the points of then a limb that swings past another is deep in it. Not
+// told of triangles.
+double depthOf(const WorldState& w, const ContactPair& pair) {
+  const Bodies& b = w.bodies;
+  for (const BodyId i : {pair.a, pair.b}) {
+    if (std::holds_alternative<Triangles>(b.shape[i]))
+      return std::numeric_limits<double>::infinity();
+  }
+  return -w.collider.distance(pair.a, b.pose[pair.a], pair.b, b.pose[pair.b]);
+}
+
 }  // namespace
 
 const Settings& World::settings() const { return impl_->settings; }
@@ -180,9 +192,11 @@ std::vector<VolumeReport> World::volumes() const {
 double World::largestOverlap() const {
   double largest = 0;
   forEachPair(*impl_, [&](const ContactPair& pair) {
+    double deepest = 0;
     for (int k = 0; k < pair.count; ++k) {
-      largest = std::max(largest, -gapOf(pair, k, impl_->bodies.pose));
+      deepest = std::max(deepest, -gapOf(pair, k, impl_->bodies.pose));
     }
+    if (deepest > largest) largest = std::max(largest, std::min(deepest, depthOf(*impl_, pair)));
   });
   for (const SoftContact& contact : impl_->softContacts) {
     largest = std::max(largest, -gapOf(contact, impl_->bodies.pose));

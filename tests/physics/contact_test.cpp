@@ -65,5 +65,30 @@ TEST(Contact, AHeavyBallRestsOnALightOne) {
   EXPECT_LT(world.largestOverlap(), 5e-3);
 }
 
+// A rod that whirls about a post, by an accuracy: where its contacts were looked for it has left.
+TEST(Contact, WhatHasGonePastDoesNotOverlap) {
+  Settings settings;
+  settings.contact = ContactSettings{};
+  settings.accuracy = 1e-2;
+  World world(settings);
+  BodyDef post, rod;
+  post.shape = Box{Vec3(0.2, 0.2, 0.2)};
+  post.motion = Motion::kStatic;
+  world.add(post);
+  rod.shape = Box{Vec3(1, 0.05, 0.05)};
+  rod.pose = {Vec3(0.145, -0.156, -0.358), Quat(0.290, -0.155, -0.250, 0.911).normalized()};
+  rod.velocity = {Vec3(-9.12, -1.19, 8.95), Vec3(-11.22, 56.21, -5.81)};
+  const BodyId whirls = world.add(rod);
+  Collider collider;
+  collider.add(0, post.shape, false);
+  collider.add(1, rod.shape, true);
+  for (int k = 0; k < 2; ++k) world.step();
+  double least = 0;
+  for (const ContactReport& contact : world.contacts()) least = std::min(least, contact.gap);
+  EXPECT_LT(least, -0.05) << "by the points of then";
+  EXPECT_GT(collider.distance(0, {}, 1, world.bodies().pose[whirls]), 0.05);
+  EXPECT_EQ(world.largestOverlap(), 0);
+}
+
 }  // namespace
 }  // namespace physics::testing
