@@ -76,7 +76,7 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const Batch& b
   of.changeBefore = block.change[1][l];
   const double mass = 1 / (b.inverse[c.a].m + b.inverse[c.b].m), h = lengthOf(b, c);
   of.energy = kMotion * mass * h * h * (b.velocity[c.a].v - b.velocity[c.b].v).squaredNorm();
-  const Softness law = softnessOf(b, c);
+  const Softness law = softnessOf(b, batch, c);
   const double soft = (1 - law.scale) / (law.scale * law.rate);
   const double size = std::min(radius[c.a], radius[c.b]);
   if (!(size > 0) || (isJointed(c) && !batch.isAtOnce)) return of;
@@ -206,10 +206,7 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch) {
 // island has.
 bool SmallSteps::Impl::asksAtOnce(const Model& w, const Batch& batch, BodyId root) const {
   if (learning || batch.isSoft() || !batch.softPairs.empty()) return false;
-  if (batch.isAtOnce && batch.isMixed()) {
-    return batch.joined == Joined::kResponds || isOverloaded(w, batch);
-  }
-  if (batch.isAtOnce) return newton.gain() > kMotion * whole[root];
+  if (batch.isAtOnce) return batch.joined == Joined::kResponds || isOverloaded(w, batch);
   if (batch.sweeps < 2 || !uneven[root] || !(change[root] > kMotion * whole[root])) return false;
   const double r = change[root] / changeBefore[root], slow = 1 - std::sqrt(r);
   return !(slow > 0) || change[root] * r > slow * slow * whole[root];

@@ -34,14 +34,17 @@ bool SmallSteps::Impl::isOverloaded(const Model& w, const Batch& batch) const {
   });
 }
 
-// Once rows are prepared. Joints are not evaluated yet. Of one contact a sweep finds the load.
-void SmallSteps::Impl::layAtOnce(Batch& batch) {
+// Before rows are prepared, and joints evaluated. Of one contact a sweep finds the load.
+void SmallSteps::Impl::layAtOnce(const Model& w, Batch& batch) {
   const bool isOne = batch.contacts.size() == 1 && !batch.isMixed();
   batch.isAtOnce = batch.isAtOnce && !isOne && !batch.isSoft() && batch.softPairs.empty();
   if (!batch.isAtOnce) return;
   takeJoints(batch);
+  for (ContactBlock& block : batch.blocks) takeSlots(w.bodies, block);
   newton.layOut(batch.blocks, batch.masses);
   batch.isAtOnce = newton.productCount() <= kMostProductsAtOnce;
+  if (!batch.isAtOnce) return;
+  for (const int k : batch.contacts) contacts[k].held = {};
 }
 
 // Rows of joints in the units of the lanes.

@@ -15,9 +15,12 @@ bool SmallSteps::Impl::isJointed(const KeptContact& c) const {
 // A contact is a spring of this many periods in a substep: above a quarter the energy of stacks
 // rises, below it substeps are wasted; and its damping ratio. Against what cannot move it is twice
 // as stiff with half of the damping; and as stiff, but damped, where joints hold more behind a body
-// than the mass that the spring is of: figures that lie on stairs would jitter.
-Softness SmallSteps::Impl::softnessOf(const Bodies& b, const KeptContact& c) const {
-  constexpr double kPeriods = 0.25, kDamping = 2;
+// than the mass that the spring is of: figures that lie on stairs would jitter. What is solved at
+// once resolves any spring: two periods take three quarters of an overlap back in a substep, and
+// sag a sixty-fourth of what a quarter does.
+Softness SmallSteps::Impl::softnessOf(const Bodies& b, const Batch& batch,
+                                      const KeptContact& c) const {
+  constexpr double kPeriods = 0.25, kDamping = 2, kPeriodsAtOnce = 2;
   const auto softness = [](double periods, double zeta) {
     const double omega = 2 * kPi * periods;  // omega h
     const double d = 1 + omega * (2 * zeta + omega);
@@ -26,6 +29,8 @@ Softness SmallSteps::Impl::softnessOf(const Bodies& b, const KeptContact& c) con
   static const Softness between = softness(kPeriods, kDamping);
   static const Softness against = softness(2 * kPeriods, kDamping / 2);
   static const Softness jointed = softness(2 * kPeriods, kDamping);
+  static const Softness atOnce = softness(kPeriodsAtOnce, kDamping);
+  if (batch.isAtOnce) return atOnce;
   if (!(b.inverse[c.a].m > 0 && b.inverse[c.b].m > 0)) return against;
   return isJointed(c) && !meetsResponse(c) ? jointed : between;
 }
@@ -116,16 +121,24 @@ void placeLane(const KeptContact& c, std::span<const Pose> pose, bool isWithin, 
   for (int k = c.count; k < block.points; ++k) emptyPoint(block, k, l);
 }
 
+void SmallSteps::Impl::takeSlots(const Bodies& b, ContactBlock& block) const {
+  for (int l = 0; l < ContactBlock::kLanes; ++l) {
+    if (block.contact[l] < 0) continue;
+    const KeptContact& c = contacts[block.contact[l]];
+    block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
+    block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
+  }
+}
+
 // Rows of a block at the present poses, for a substep of its island's.
 void SmallSteps::Impl::fill(const Model& w, const Batch& batch, ContactBlock& block) const {
   const Bodies& b = w.bodies;
   const bool isWithin = stepsAccurately(w, batch);
+  takeSlots(b, block);
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (block.contact[l] < 0) continue;  // as it was laid out
     const KeptContact& c = contacts[block.contact[l]];
-    block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
-    block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
-    const Softness soft = learning ? Softness{} : softnessOf(b, c);
+    const Softness soft = learning ? Softness{} : softnessOf(b, batch, c);
     block.scale[l] = soft.scale;
     block.rate[l] = soft.rate;
     const double h = lengthOf(b, c);
@@ -151,6 +164,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
       if (batch.inLanes()) takeRoot(batch, s);
     }
   });
+  layAtOnce(w, batch);
   const FrictionAt friction = frictionAt(w, batch);
   std::atomic<bool> someDeep = false;
   forEachGroup(w, batch, [&](int from, int to) {
@@ -159,7 +173,6 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
     contactKernels().prepare(blocks.data(), to - from, batch.masses.data(), friction);
     if (isDeep(batch, blocks)) someDeep = true;
   });
-  layAtOnce(batch);
   noteSliding(batch);
   if (batch.inLanes()) giveLanes(w, batch);
   batch.isDeep = someDeep;
@@ -207,8 +220,8 @@ void SmallSteps::Impl::holdNoMore(KeptContact& c, double h) {
   for (double& of : c.held) of *= sum / held;
 }
 
-// Substeps do not follow what springs of jointed bodies are drawn by, nor those of light ones under
-// heavy ones: a hand that carries a heap would stand in the floor by F h^2 / m of its own mass.
+// Substeps do not follow what springs of jointed bodies are drawn by: a hand that carries a heap
+// would stand in the floor by F h^2 / m of its own mass.
 // What such a contact carries from step to step beyond the weight of the lighter body becomes what
 // it gives way about, so that it comes to where the bodies just touch: the method of multipliers,
 // by a share that is small beside the rate of the springs. But what still carries the same goes on:
@@ -219,7 +232,11 @@ void SmallSteps::Impl::holdCarried(const Model& w, const Batch& batch, double h)
   const double g = gravityOf(w);
   for (const int contact : batch.contacts) {
     KeptContact& c = contacts[contact];
-    if (!isJointed(c) && !batch.isAtOnce) {
+    if (batch.isAtOnce) {  // where it is swept again it goes on from there
+      for (int k = 0; k < c.count; ++k) c.held[k] = c.stayed(k) / (h * h);
+      continue;
+    }
+    if (!isJointed(c)) {
       holdNoMore(c, h);
       continue;
     }

@@ -38,7 +38,6 @@ class ContactNewton {
   void solvePositions(std::span<ContactBlock> blocks, std::span<LaneMotion> motions,
                       PositionSweep which);
   void solveVelocities(std::span<ContactBlock> blocks, std::span<LaneMotion> motions);
-  double gain() const { return gain_; }  // what it went down by there [J s^2]
 
  private:
   struct Motion {  // turns in the units of the lanes
@@ -108,7 +107,6 @@ class ContactNewton {
   std::vector<Vec3> solved_;
   std::vector<Along> along_;
   std::vector<Held> held_;
-  double gain_ = 0;
 };
 
 }  // namespace physics

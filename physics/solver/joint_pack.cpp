@@ -2,6 +2,7 @@
 // is here, what does not is in the kernels.
 #include <algorithm>
 
+#include "physics/constraints/pull_stiffness.h"
 #include "physics/solver/articulation.h"
 #include "physics/solver/joint_lanes.h"
 
@@ -140,10 +141,7 @@ void JointPack<W>::stiffen(std::span<Mat3> stiffness) const {
           force.setZero();
           for (int r = 0; r < shape.rows; ++r) force += lambda[r] * read(row.linear[b] + 3 * r, l);
         }
-        const double along = force.dot(arm);
-        if (!(along > 0)) continue;
-        stiffness[ids_[shape.body[b] * W + l]] +=
-            along * (Mat3::Identity() - arm * arm.transpose() / arm.squaredNorm());
+        stiffness[ids_[shape.body[b] * W + l]] += pullStiffness(force, arm);
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "physics/base/profile.h"
+#include "physics/constraints/pull_stiffness.h"
 #include "physics/motion/second_order.h"
 #include "physics/sweep/active_set.h"
 #include "physics/sweep/direct_apply.h"
@@ -65,10 +66,7 @@ void load(const C& item, const JointRows& joint, const Bodies& bodies,
     if (joint.isSymmetric) continue;  // its directions do not turn with the displacement
     if constexpr (requires { item.anchors; }) {
       const Vec3 arm = bodies.pose[item.bodies[b]].q * item.anchors[b];
-      const double length2 = arm.squaredNorm(), along = force.dot(arm);
-      if (along > 0) {
-        body.stiffnessAngular += along * (Mat3::Identity() - arm * arm.transpose() / length2);
-      }
+      body.stiffnessAngular += pullStiffness(force, arm);
     }
     if constexpr (requires { item.length; }) {  // a link under tension also resists going sideways
       const Vec3 d = joint.linear[b].row(0).transpose();

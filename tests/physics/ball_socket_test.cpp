@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "physics/constraints/pull_stiffness.h"
 #include "tests/physics/pair.h"
 
 namespace physics::testing {
@@ -95,6 +96,39 @@ TEST(BallSocket, SolvesFromTheWorldBody) {
   const BallSocket item{{0, 1}, {Vec3(0, 1, 0), Vec3(0, 1, 0)}};
   iterate(item, bodies, 5);
   EXPECT_LT(gap(item, bodies).norm(), 1e-14);
+}
+
+// What the torque of a force changes by when the arm turns.
+Vec3 torqueChange(const Vec3& force, const Vec3& arm, const Vec3& theta) {
+  return theta.cross(arm).cross(force);
+}
+
+TEST(PullStiffness, TurnsBackAcrossTheForce) {
+  Random random(31);
+  for (int n = 0; n < 100; ++n) {
+    const Vec3 force = random.inBall(10), arm = random.inBall(1);
+    const Mat3 stiffness = pullStiffness(force, arm);
+    if (force.dot(arm) < 0) {
+      EXPECT_TRUE(stiffness.isZero(0));
+      continue;
+    }
+    const Vec3 across = force.cross(random.inBall(1));
+    EXPECT_LT((stiffness * across + torqueChange(force, arm, across)).norm(),
+              1e-13 * stiffness.norm() * across.norm() + 1e-14);
+    EXPECT_LT((stiffness * force).norm(), 1e-14 * stiffness.norm() * force.norm());
+  }
+}
+
+TEST(PullStiffness, OfTwoAnchorsBesideEachOtherIsAllThereIs) {
+  const Vec3 force(7, 0, 0);
+  for (const Vec3& theta : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0.3, -2, 1)}) {
+    Vec3 change = Vec3::Zero();
+    for (const double side : {-0.3, 0.3}) {
+      const Vec3 arm(0.1, 0, side);
+      change += pullStiffness(force, arm) * theta + torqueChange(force, arm, theta);
+    }
+    EXPECT_LT(change.norm(), 1e-14);
+  }
 }
 
 }  // namespace

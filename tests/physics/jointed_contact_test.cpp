@@ -4,6 +4,7 @@
 #include "physics/constraints/ball_socket.h"
 #include "physics/constraints/cone_limit.h"
 #include "physics/constraints/volume.h"
+#include "physics/small_steps/island_plan.h"
 #include "physics/world.h"
 #include "physics/world/measure.h"
 
@@ -181,8 +182,84 @@ TEST_P(TautBridge, HoldsWhatFallsOnItAndGivesItNoEnergy) {
 
 // Of 10 t the hit is not resolved by the most substeps that there are.
 INSTANTIATE_TEST_SUITE_P(JointedContact, TautBridge,
-                         ::testing::Values(Falls{100, 0.03}, Falls{1000, 0.003},
-                                           Falls{3000, 0.001}, Falls{10000, 0.25}));
+                         ::testing::Values(Falls{100, 0.03}, Falls{1000, 0.003}, Falls{3000, 0.001},
+                                           Falls{10000, 0.25}));
+
+// A belt of 40 slats over two drums, and ten boxes that fall on it: its slats pull each other with
+// some hundred times their weight. By one socket between two slats, or by two beside each other,
+// whose pulls go past the arms that they have from the slats' centres.
+class Belt : public ::testing::TestWithParam<int> {
+ public:
+  Belt() : world(settingsOf()) {
+    for (const double side : {-0.5, 0.5}) addDrum(side * kApart);
+    for (int k = 0; k < kSlats; ++k) addSlat(cornerOf(k), cornerOf(k + 1));
+    for (int k = 0; k < kSlats; ++k) joinSlats(k);
+    for (int k = 0; k < kBoxes; ++k) {
+      const double x = kApart * ((k + 0.5) / kBoxes - 0.5);
+      addBlock(world, Vec3(0.24, 0.24, 0.24), Vec3(x, kRadius + 0.3, 0), 2);
+    }
+  }
+
+ protected:
+  static constexpr int kSlats = 40, kBoxes = 10;
+  static constexpr double kRadius = 0.53, kLength = 0.2;  // m, of the slats' centres
+  static constexpr double kApart = 0.5 * (0.995 * kSlats * kLength - 2 * kPi * kRadius);
+  World world;
+  std::vector<BodyId> slats;
+
+  static Settings settingsOf() {
+    Settings settings = touching();
+    settings.gravity = Vec3(0, -9.81, 0);
+    return settings;
+  }
+  void addDrum(double x) {
+    BodyDef drum;
+    drum.shape = Capsule{0.5, 2};
+    drum.pose = {Vec3(x, 0, 0), Quat(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitX()))};
+    drum.motion = Motion::kStatic;
+    world.add(drum);
+  }
+  // Clockwise, from above the left drum.
+  static Vec3 cornerOf(int k) {
+    const double around = kPi * kRadius, half = kApart + around;
+    const double s = 2 * half * (k % kSlats) / kSlats, t = std::fmod(s, half);
+    const double side = s < half ? 1 : -1;
+    if (t < kApart) return side * Vec3(t - 0.5 * kApart, kRadius, 0);
+    const double angle = (t - kApart) / kRadius;
+    return side * Vec3(0.5 * kApart + kRadius * std::sin(angle), kRadius * std::cos(angle), 0);
+  }
+  void addSlat(const Vec3& from, const Vec3& to) {
+    const Vec3 along = to - from;
+    BodyDef slat;
+    slat.shape = Box{Vec3(0.9 * along.norm(), 0.04, 0.8)};
+    slat.pose = {0.5 * (from + to), Quat::FromTwoVectors(Vec3::UnitX(), along)};
+    slat.mass = 0.5;
+    slats.push_back(world.add(slat));
+  }
+  void joinSlats(int k) {
+    const BodyId a = slats[(k + kSlats - 1) % kSlats], b = slats[k];
+    world.ignoreCollision(a, b);
+    const Vec3 at = cornerOf(k);
+    if (GetParam() == 1) return join(world, a, b, at);
+    for (const double side : {-0.3, 0.3}) join(world, a, b, at + side * Vec3::UnitZ());
+  }
+};
+
+TEST_P(Belt, ComesToRestInFewSubsteps) {
+  for (int k = 0; k < 240; ++k) world.step();
+  int most = 0;
+  const IslandListening listening(
+      [&](const IslandPlan& plan) { most = std::max(most, plan.substeps); });
+  for (int k = 0; k < 60; ++k) {
+    world.step();
+    EXPECT_LT(fastest(world), 5e-3);
+  }
+  EXPECT_LE(most, 8);
+  EXPECT_LT(errorOf(world, BallSocketDef::kWord), 1e-5);
+  EXPECT_LT(world.largestOverlap(), 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(JointedContact, Belt, ::testing::Values(1, 2));
 
 Settings slow() {
   Settings settings;
