@@ -200,10 +200,9 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch) {
   }
 }
 
-// Where sweeps do not get there; where joints are, for as long as what is heavy lies on what is
-// light: turns of the two would rock it. What sweeps have yet to bring shrinks by the same share r
-// from one to the next; it is change r / (1 - sqrt r)^2 of energy, and more than all that the
-// island has.
+// Where sweeps do not get there; from then on for as long as what is heavy lies on what is light,
+// or contacts see joints. What sweeps have yet to bring shrinks by the same share r from one to the
+// next; it is change r / (1 - sqrt r)^2 of energy, and more than all that the island has.
 bool SmallSteps::Impl::asksAtOnce(const Model& w, const Batch& batch, BodyId root) const {
   if (learning || batch.isSoft() || !batch.softPairs.empty()) return false;
   if (batch.isAtOnce) return batch.joined == Joined::kResponds || isOverloaded(w, batch);

@@ -35,12 +35,11 @@ bool SmallSteps::Impl::isOverloaded(const Model& w, const Batch& batch) const {
 }
 
 // Before rows are prepared, and joints evaluated. Of one contact a sweep finds the load.
-void SmallSteps::Impl::layAtOnce(const Model& w, Batch& batch) {
+void SmallSteps::Impl::layAtOnce(Batch& batch) {
   const bool isOne = batch.contacts.size() == 1 && !batch.isMixed();
   batch.isAtOnce = batch.isAtOnce && !isOne && !batch.isSoft() && batch.softPairs.empty();
   if (!batch.isAtOnce) return;
   takeJoints(batch);
-  for (ContactBlock& block : batch.blocks) takeSlots(w.bodies, block);
   newton.layOut(batch.blocks, batch.masses);
   batch.isAtOnce = newton.productCount() <= kMostProductsAtOnce;
   if (!batch.isAtOnce) return;

@@ -121,20 +121,10 @@ void placeLane(const KeptContact& c, std::span<const Pose> pose, bool isWithin, 
   for (int k = c.count; k < block.points; ++k) emptyPoint(block, k, l);
 }
 
-void SmallSteps::Impl::takeSlots(const Bodies& b, ContactBlock& block) const {
-  for (int l = 0; l < ContactBlock::kLanes; ++l) {
-    if (block.contact[l] < 0) continue;
-    const KeptContact& c = contacts[block.contact[l]];
-    block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
-    block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
-  }
-}
-
 // Rows of a block at the present poses, for a substep of its island's.
 void SmallSteps::Impl::fill(const Model& w, const Batch& batch, ContactBlock& block) const {
   const Bodies& b = w.bodies;
   const bool isWithin = stepsAccurately(w, batch);
-  takeSlots(b, block);
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (block.contact[l] < 0) continue;  // as it was laid out
     const KeptContact& c = contacts[block.contact[l]];
@@ -164,7 +154,7 @@ void SmallSteps::Impl::rows(Model& w, Batch& batch) {
       if (batch.inLanes()) takeRoot(batch, s);
     }
   });
-  layAtOnce(w, batch);
+  layAtOnce(batch);
   const FrictionAt friction = frictionAt(w, batch);
   std::atomic<bool> someDeep = false;
   forEachGroup(w, batch, [&](int from, int to) {
@@ -221,12 +211,11 @@ void SmallSteps::Impl::holdNoMore(KeptContact& c, double h) {
 }
 
 // Substeps do not follow what springs of jointed bodies are drawn by: a hand that carries a heap
-// would stand in the floor by F h^2 / m of its own mass.
-// What such a contact carries from step to step beyond the weight of the lighter body becomes what
-// it gives way about, so that it comes to where the bodies just touch: the method of multipliers,
-// by a share that is small beside the rate of the springs. But what still carries the same goes on:
-// bodies that stood when the world began would give way by their own weight, 0.06 mm at 120
-// substeps a second.
+// would stand in the floor by F h^2 / m of its own mass. What such a contact carries from step to
+// step beyond the weight of the lighter body becomes what it gives way about, so that it comes to
+// where the bodies just touch: the method of multipliers, by a share that is small beside the rate
+// of the springs. But what still carries the same goes on: bodies that stood when the world began
+// would give way by their own weight, 0.06 mm at 120 substeps a second.
 void SmallSteps::Impl::holdCarried(const Model& w, const Batch& batch, double h) {
   constexpr double kShare = 1.0 / 32, kSame = 0.99;
   const double g = gravityOf(w);

@@ -72,6 +72,14 @@ void SmallSteps::Impl::takeSlots(Model& w, Batch& batch, int levels) {
   batch.before.resize(batch.slots.size());
 }
 
+// The bodies of a lane, once it has its contact.
+void SmallSteps::Impl::takeSlots(const Bodies& b, ContactBlock& block, int l) const {
+  if (block.contact[l] < 0) return emptyLane(block, l);
+  const KeptContact& c = contacts[block.contact[l]];
+  block.bodyA[l] = isMovable(b, c.a) ? slotOf[c.a] : 0;
+  block.bodyB[l] = isMovable(b, c.b) ? slotOf[c.b] : 0;
+}
+
 // What meets may be another corner or all of a face a substep later, where bodies go far.
 SmallSteps::Impl::Place SmallSteps::Impl::placeOf(const Bodies& b, int contact, int levels) const {
   const GroupOrder order{levels};
@@ -219,9 +227,7 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
   });
   forEachGroup(w, batch, [&](int from, int to) {
     for (int k = from; k < to; ++k) {
-      for (int l = 0; l < kLanes; ++l) {
-        if (batch.blocks[k].contact[l] < 0) emptyLane(batch.blocks[k], l);
-      }
+      for (int l = 0; l < kLanes; ++l) takeSlots(w.bodies, batch.blocks[k], l);
     }
   });
 }

@@ -362,7 +362,7 @@ struct SmallSteps::Impl {
   int substepsForApproach(const Model& w, const KeptContact& c) const;
   double lightMass(const Bodies& b, const KeptContact& c) const;
   bool isOverloaded(const Model& w, const Batch& batch) const;
-  void layAtOnce(const Model& w, Batch& batch);
+  void layAtOnce(Batch& batch);
   void takeJoints(Batch& batch);
   template <class F>
   void solveAtOnce(Batch& batch, F&& solve);
@@ -518,7 +518,7 @@ struct SmallSteps::Impl {
   bool isJointed(const KeptContact& c) const;
   double smallSag(const Model& w, const KeptContact& c, double size) const;
   Softness softnessOf(const Bodies& b, const Batch& batch, const KeptContact& c) const;
-  void takeSlots(const Bodies& b, ContactBlock& block) const;
+  void takeSlots(const Bodies& b, ContactBlock& block, int l) const;
   void fill(const Model& w, const Batch& batch, ContactBlock& block) const;
   void rows(Model& w, Batch& batch);
   bool isDeep(const Batch& batch, std::span<const ContactBlock> blocks) const;

@@ -375,8 +375,8 @@ void ContactNewton::solve(std::span<LaneMotion> motions) {
       push(c, row, row.lambda, x_);
     }
   }
-  const bool gains = gainOf(joints.empty() ? x_ : next_) > 0;
-  if (!gains || (!joints.empty() && !ends)) return;
+  if (!joints.empty() && !ends) return;
+  if (!(gainOf(joints.empty() ? x_ : next_) > 0)) return;
   for (const Row& row : rows_) *row.stored = static_cast<float>(row.lambda);
   for (std::size_t s = 1; s < motions.size(); ++s) {
     for (int k = 0; k < 3; ++k) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "physics/constraints/constraint_error.h"
 #include "physics/motion/second_order.h"
@@ -57,13 +58,13 @@ void forEachPair(const WorldState& w, F&& f) {
 }
 
 // Of the two shapes where they are now: since their contacts were looked for they may have gone
-// past each other, and by the points of then a limb that swings past another is deep in it. Not
-// told of triangles.
+// past each other, and by the points of then a limb that swings past another is deep in it. Of
+// triangles it is not known: infinite.
 double depthOf(const WorldState& w, const ContactPair& pair) {
   const Bodies& b = w.bodies;
   for (const BodyId i : {pair.a, pair.b}) {
-    if (std::holds_alternative<Triangles>(b.shape[i]))
-      return std::numeric_limits<double>::infinity();
+    const bool isMesh = std::holds_alternative<Triangles>(b.shape[i]);
+    if (isMesh) return std::numeric_limits<double>::infinity();
   }
   return -w.collider.distance(pair.a, b.pose[pair.a], pair.b, b.pose[pair.b]);
 }
