@@ -138,6 +138,21 @@ void SmallSteps::Impl::spreadJump(const Model& w, KeptContact& c) const {
   if (sum(c.lambda) > 2 * sum(c.before)) c.step = std::sqrt(c.step * w.settings.dt);
 }
 
+// Joints hold where `reached` is.
+bool SmallSteps::Impl::holdsAtEnd(Model& w, Batch& batch, double h) {
+  if (batch.articulations.empty()) return true;
+  std::vector<Pose>& pose = w.bodies.pose;
+  const auto swap = [&] {
+    for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
+      std::swap(pose[batch.bodies[k]], reached.pose[k]);
+    }
+  };
+  swap();
+  const bool holds = batch.joints.areNearlyClosed({w.kinds, pose, pose, h, masses, moved});
+  swap();
+  return holds;
+}
+
 // Where `reached` is, something is off the ground that the last row ends on.
 bool SmallSteps::Impl::opensAtEnd(const Bodies& b, const Batch& batch) {
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) trialNow[batch.bodies[k]] = reached.pose[k];
@@ -151,20 +166,22 @@ bool SmallSteps::Impl::opensAtEnd(const Bodies& b, const Batch& batch) {
 }
 
 // What rests is left to rest: where the last row's end is known no better, it is that. And where
-// contacts hold there: what extrapolates does not know that nothing passes a surface.
+// contacts and joints hold there: what extrapolates does not know that nothing passes a surface,
+// and opens joints by the square of what rows differ by.
 void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
   if (trial.changes > 0) return;
   if (!(trial.tableau.gain(trial.extent, w.settings.dt, trial.levers) > kKnown)) return;
-  const Batch& batch = batches[trial.batch];
+  Batch& batch = batches[trial.batch];
+  const double h = trial.whole / trial.steps;
   reached.pose.resize(batch.bodies.size());
   reached.velocity.resize(batch.bodies.size());
   trial.tableau.best(reached.pose, reached.velocity);
-  if (opensAtEnd(w.bodies, batch)) return;
+  if (opensAtEnd(w.bodies, batch) || !holdsAtEnd(w, batch, h)) return;
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
     w.bodies.pose[batch.bodies[k]] = reached.pose[k];
     w.bodies.velocity[batch.bodies[k]] = reached.velocity[k];
   }
-  for (const int d : batch.deformables) close(w, deformables[d], trial.whole / trial.steps);
+  for (const int d : batch.deformables) close(w, deformables[d], h);
 }
 
 // What rows lead to is off what holds a mesh by the square of what they differ by.

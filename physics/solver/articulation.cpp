@@ -97,6 +97,12 @@ void JointPacks::seeStart(const JointStage& stage) {
   forEach([&](auto& pack) { pack.seeStart(stage); });
 }
 
+bool JointPacks::areNearlyClosed(const JointStage& stage) {
+  bool are = true;
+  forEach([&](auto& pack) { are = pack.areNearlyClosed(stage) && are; });
+  return are;
+}
+
 bool JointPacks::findApart(std::span<double> marks) {
   bool any = false;
   forEach([&](auto& pack) { any = pack.findApart(marks) || any; });

@@ -156,6 +156,7 @@ class JointPack {
   void stiffen(std::span<Mat3> stiffness) const;
   void leave(const JointStage& stage, double most);
   void seeStart(const JointStage& stage);
+  bool areNearlyClosed(const JointStage& stage);
   bool findApart(std::span<double> marks) const;
   void forgetClosing(const JointStage& stage, std::span<const Displacement> predicted);
   void seePositions(const JointStage& stage);
@@ -262,6 +263,7 @@ class JointPacks {
   void seeStart(const JointStage& stage);
   bool findApart(std::span<double> marks);
   void forgetClosing(const JointStage& stage, std::span<const Displacement> predicted);
+  bool areNearlyClosed(const JointStage& stage);  // no gap is more than kNearlyClosed of its arm
   // Begins a substep: evaluates the rows where the bodies are. Then, as often as they were given
   // something since, solves for positions by these rows.
   void seePositions(const JointStage& stage);

@@ -379,6 +379,16 @@ void JointPack<W>::seeStart(const JointStage& stage) {
 }
 
 template <int W>
+bool JointPack<W>::areNearlyClosed(const JointStage& stage) {
+  gatherPoses<W>(ids_, stage.pose, bodies_);
+  jointKernels<W>().seeGaps(view(), false);
+  for (int l = 0; l < lanes_; ++l) {
+    if (hasGap(l, kNearlyClosed)) return false;
+  }
+  return true;
+}
+
+template <int W>
 bool JointPack<W>::isApart() const {
   return std::any_of(apart_.begin(), apart_.begin() + lanes_, [](bool apart) { return apart; });
 }
