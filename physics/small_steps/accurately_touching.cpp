@@ -138,9 +138,9 @@ void SmallSteps::Impl::spreadJump(const Model& w, KeptContact& c) const {
   if (sum(c.lambda) > 2 * sum(c.before)) c.step = std::sqrt(c.step * w.settings.dt);
 }
 
-// Joints hold where `reached` is.
-bool SmallSteps::Impl::holdsAtEnd(Model& w, Batch& batch, double h) {
-  if (batch.articulations.empty()) return true;
+// To where `reached` has the bodies, if joints hold there; else nothing moves, and joints are seen
+// again where they are.
+bool SmallSteps::Impl::goToReached(Model& w, Batch& batch, double h) {
   std::vector<Pose>& pose = w.bodies.pose;
   const auto swap = [&] {
     for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
@@ -148,9 +148,11 @@ bool SmallSteps::Impl::holdsAtEnd(Model& w, Batch& batch, double h) {
     }
   };
   swap();
-  const bool holds = batch.joints.areNearlyClosed({w.kinds, pose, pose, h, masses, moved});
+  const JointStage stage = {w.kinds, pose, pose, h, masses, moved};
+  if (batch.articulations.empty() || batch.joints.areNearlyClosed(stage)) return true;
   swap();
-  return holds;
+  batch.joints.seeStart(stage);
+  return false;
 }
 
 // Where `reached` is, something is off the ground that the last row ends on.
@@ -176,9 +178,8 @@ void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
   reached.pose.resize(batch.bodies.size());
   reached.velocity.resize(batch.bodies.size());
   trial.tableau.best(reached.pose, reached.velocity);
-  if (opensAtEnd(w.bodies, batch) || !holdsAtEnd(w, batch, h)) return;
+  if (opensAtEnd(w.bodies, batch) || !goToReached(w, batch, h)) return;
   for (std::size_t k = 0; k < batch.bodies.size(); ++k) {
-    w.bodies.pose[batch.bodies[k]] = reached.pose[k];
     w.bodies.velocity[batch.bodies[k]] = reached.velocity[k];
   }
   for (const int d : batch.deformables) close(w, deformables[d], h);

@@ -339,7 +339,7 @@ struct SmallSteps::Impl {
   bool jumps(const Model& w, const Trial& trial) const;
   void spreadJump(const Model& w, KeptContact& c) const;
   bool opensAtEnd(const Bodies& b, const Batch& batch);
-  bool holdsAtEnd(Model& w, Batch& batch, double h);
+  bool goToReached(Model& w, Batch& batch, double h);
   void takeBest(Model& w, const Trial& trial);
   void goBack(Bodies& b, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch, std::size_t k);

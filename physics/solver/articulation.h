@@ -192,6 +192,7 @@ class JointPack {
   void takeLanes(const LaneBodies& lanes);
   void giveLanes(const LaneBodies& lanes) const;
   void see(const JointStage& stage, bool first);
+  void seeGaps(const JointStage& stage);
   void noteSeen();
   void step();
   void giveUp(const Num<W>& far);
@@ -263,7 +264,8 @@ class JointPacks {
   void seeStart(const JointStage& stage);
   bool findApart(std::span<double> marks);
   void forgetClosing(const JointStage& stage, std::span<const Displacement> predicted);
-  bool areNearlyClosed(const JointStage& stage);  // no gap is more than kNearlyClosed of its arm
+  // Sees them where the bodies are: no gap is more than kNearlyClosed of its arm.
+  bool areNearlyClosed(const JointStage& stage);
   // Begins a substep: evaluates the rows where the bodies are. Then, as often as they were given
   // something since, solves for positions by these rows.
   void seePositions(const JointStage& stage);

@@ -199,8 +199,7 @@ bool JointPack<W>::givesWay(int i, int l) const {
 // than `most` [m, rad] at a time.
 template <int W>
 void JointPack<W>::leave(const JointStage& stage, double most) {
-  gatherPoses<W>(ids_, stage.pose, bodies_);
-  jointKernels<W>().seeGaps(view(), false);
+  seeGaps(stage);
   jointKernels<W>().seeLimits(view(), true);
   seeOthers(stage, true, false);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -372,16 +371,20 @@ void JointPack<W>::step() {
 }
 
 template <int W>
-void JointPack<W>::seeStart(const JointStage& stage) {
+void JointPack<W>::seeGaps(const JointStage& stage) {
   gatherPoses<W>(ids_, stage.pose, bodies_);
   jointKernels<W>().seeGaps(view(), false);
+}
+
+template <int W>
+void JointPack<W>::seeStart(const JointStage& stage) {
+  seeGaps(stage);
   for (int l = 0; l < lanes_; ++l) apart_[l] = hasGap(l, kOpened);
 }
 
 template <int W>
 bool JointPack<W>::areNearlyClosed(const JointStage& stage) {
-  gatherPoses<W>(ids_, stage.pose, bodies_);
-  jointKernels<W>().seeGaps(view(), false);
+  seeGaps(stage);
   for (int l = 0; l < lanes_; ++l) {
     if (hasGap(l, kNearlyClosed)) return false;
   }
