@@ -106,7 +106,7 @@ struct JointView {
   JointLanes<W>* rows;
   JointFactor<W>* factors;     // of the rows
   JointFactored<W>* factored;  // of the bodies
-  Num<W>*entries, *scaled;     // of blocks, by rows: A_ki below the diagonal, and L_ki
+  Num<W>*entries, *scaled;     // of blocks, by columns: A_ki below the diagonal, and L_ki
   int bodyCount, rowCount, tailStart;
   const JointShape* shapes;
   const JointColumn* columns;

@@ -45,9 +45,9 @@ void coupleGaps(const Of<N>& s, int k, int p, int l, int q, N (&sum)[9]) {
   const Triple<N> a = load3<N>(s.rows[k].angular[p]);
   const Triple<N> x = cross(a, load3<N>(response)), y = cross(a, load3<N>(response + 3)),
                   z = cross(a, load3<N>(response + 6));
-  sum[0] = m + x.x, sum[1] = y.x, sum[2] = z.x;
-  sum[3] = x.y, sum[4] = m + y.y, sum[5] = z.y;
-  sum[6] = x.z, sum[7] = y.z, sum[8] = m + z.z;
+  sum[0] = m + x.x, sum[1] = x.y, sum[2] = x.z;
+  sum[3] = y.x, sum[4] = m + y.y, sum[5] = y.z;
+  sum[6] = z.x, sum[7] = z.y, sum[8] = m + z.z;
 }
 
 // Adds J_k M^-1 J_l^T of the body that is k's p-th and l's q-th.
@@ -61,27 +61,27 @@ void couple(const Of<N>& s, int k, int p, int l, int q, N (&sum)[9]) {
   };
   if (R == C && later.isGap && earlier.isGap) {
     const N signedMass = all<N>(signOf(p) * signOf(q)) * m;
-    for (int r = 0; r < R; ++r) sum[r * C + r] = sum[r * C + r] + signedMass;
+    for (int r = 0; r < R; ++r) sum[r * R + r] = sum[r * R + r] + signedMass;
   } else if (later.isGap && earlier.hasLinear) {
     const N signedMass = all<N>(signOf(p)) * m;
     for (int c = 0; c < C && c < earlier.rows; ++c) {
       const Triple<N> j = linear(rowL, q, c) * signedMass;
-      sum[c] = sum[c] + j.x;
-      if constexpr (R == 3) sum[C + c] = sum[C + c] + j.y, sum[2 * C + c] = sum[2 * C + c] + j.z;
+      N* to = sum + c * R;
+      to[0] = to[0] + j.x;
+      if constexpr (R == 3) to[1] = to[1] + j.y, to[2] = to[2] + j.z;
     }
   } else if (earlier.isGap && later.hasLinear) {
     const N signedMass = all<N>(signOf(q)) * m;
     for (int r = 0; r < R && r < later.rows; ++r) {
       const Triple<N> j = linear(rowK, p, r) * signedMass;
-      sum[r * C] = sum[r * C] + j.x;
-      if constexpr (C == 3)
-        sum[r * C + 1] = sum[r * C + 1] + j.y, sum[r * C + 2] = sum[r * C + 2] + j.z;
+      sum[r] = sum[r] + j.x;
+      if constexpr (C == 3) sum[R + r] = sum[R + r] + j.y, sum[2 * R + r] = sum[2 * R + r] + j.z;
     }
   } else if (later.hasLinear && earlier.hasLinear) {
     for (int r = 0; r < later.rows; ++r) {
       const Triple<N> j = linear(rowK, p, r) * m;
       for (int c = 0; c < earlier.rows; ++c)
-        sum[r * C + c] = sum[r * C + c] + dot(j, linear(rowL, q, c));
+        sum[c * R + r] = sum[c * R + r] + dot(j, linear(rowL, q, c));
     }
   }
   if (!later.hasAngular || !earlier.hasAngular) return;
@@ -89,13 +89,14 @@ void couple(const Of<N>& s, int k, int p, int l, int q, N (&sum)[9]) {
     const Triple<N> response = load3<N>(s.factors[l].response[q] + 3 * c);
     if (R == 3 && later.isGap) {
       const Triple<N> moved = cross(load3<N>(rowK.angular[p]), response);
-      sum[c] = sum[c] + moved.x;
-      if constexpr (R == 3)
-        sum[C + c] = sum[C + c] + moved.y, sum[2 * C + c] = sum[2 * C + c] + moved.z;
+      N* to = sum + c * R;
+      to[0] = to[0] + moved.x;
+      if constexpr (R == 3) to[1] = to[1] + moved.y, to[2] = to[2] + moved.z;
       continue;
     }
     for (int r = 0; r < R && r < later.rows; ++r) {
-      sum[r * C + c] = sum[r * C + c] + dot(load3<N>(rowK.angular[p] + 3 * r), response);
+      N& entry = sum[c * R + r];
+      entry = entry + dot(load3<N>(rowK.angular[p] + 3 * r), response);
     }
   }
 }
@@ -199,30 +200,106 @@ void invert(JointFactor<N::kWidth>& factor) {
 
 constexpr int symmetric(int r, int c) { return r > c ? triangle(r, c) : triangle(c, r); }
 
+// Columns of R rows, which lie one after the other in a block.
+template <int R, class N>
+struct Column {
+  N v[R];
+};
+template <int R, class N>
+Column<R, N> loadColumn(const Num<N::kWidth>* p) {
+  Column<R, N> column;
+  for (int r = 0; r < R; ++r) column.v[r] = load(p[r]);
+  return column;
+}
+template <int R, class N>
+void storeColumn(Num<N::kWidth>* p, const Column<R, N>& column) {
+  for (int r = 0; r < R; ++r) store(p[r], column.v[r]);
+}
+template <int R, class N>
+Column<R, N> operator*(const Column<R, N>& a, N b) {
+  Column<R, N> product;
+  for (int r = 0; r < R; ++r) product.v[r] = a.v[r] * b;
+  return product;
+}
+template <int R, class N>
+Column<R, N> operator+(const Column<R, N>& a, const Column<R, N>& b) {
+  Column<R, N> sum;
+  for (int r = 0; r < R; ++r) sum.v[r] = a.v[r] + b.v[r];
+  return sum;
+}
+template <int R, class N>
+Column<R, N> operator-(const Column<R, N>& a, const Column<R, N>& b) {
+  Column<R, N> difference;
+  for (int r = 0; r < R; ++r) difference.v[r] = a.v[r] - b.v[r];
+  return difference;
+}
+
+// One lane takes the three rows in a register.
+template <>
+struct Column<3, One> {
+  Four v;
+};
+template <>
+inline Column<3, One> loadColumn<3, One>(const Num<1>* p) {
+  return {loadThree(p->v)};
+}
+template <>
+inline void storeColumn<3, One>(Num<1>* p, const Column<3, One>& column) {
+  storeThree(p->v, column.v);
+}
+inline Column<3, One> operator*(const Column<3, One>& a, One b) { return {a.v * all<Four>(b.v)}; }
+inline Column<3, One> operator+(const Column<3, One>& a, const Column<3, One>& b) {
+  return {a.v + b.v};
+}
+inline Column<3, One> operator-(const Column<3, One>& a, const Column<3, One>& b) {
+  return {a.v - b.v};
+}
+
+// A column of A B: `a` by its columns, and of B's column the K numbers that lie kStep apart.
+template <int R, int K, int kStep, class N>
+Column<R, N> product(const Column<R, N> (&a)[K], const Num<N::kWidth>* b) {
+  Column<R, N> sum = a[0] * load(b[0]);
+  for (int k = 1; k < K; ++k) sum = sum + a[k] * load(b[k * kStep]);
+  return sum;
+}
+
 // L_ki = A_ki D_ii^-1
 template <int R, int C, class N>
 void scale(const Num<N::kWidth>* entry, const JointFactor<N::kWidth>& factor,
-           Num<N::kWidth>* scaled) {
-  for (int r = 0; r < R; ++r) {
-    for (int c = 0; c < C; ++c) {
-      N sum = load(entry[r * C]) * load(factor.inverse[symmetric(0, c)]);
-      for (int k = 1; k < C; ++k) {
-        sum = sum + load(entry[r * C + k]) * load(factor.inverse[symmetric(k, c)]);
-      }
-      store(scaled[r * C + c], sum);
+           Num<N::kWidth>* scaled, Column<R, N> (&columns)[C]) {
+  Column<R, N> a[C];
+  for (int c = 0; c < C; ++c) a[c] = loadColumn<R, N>(entry + c * R);
+  for (int c = 0; c < C; ++c) {
+    columns[c] = a[0] * load(factor.inverse[symmetric(0, c)]);
+    for (int k = 1; k < C; ++k) {
+      columns[c] = columns[c] + a[k] * load(factor.inverse[symmetric(k, c)]);
     }
   }
+  for (int c = 0; c < C; ++c) storeColumn(scaled + c * R, columns[c]);
 }
 
-// to -= L_qi A_pi^T; of the diagonal the lower triangle.
-template <int R, int C, int I, bool kDiagonal, class N>
-void update(Num<N::kWidth>* to, const Num<N::kWidth>* scaled, const Num<N::kWidth>* entry) {
-  for (int r = 0; r < R; ++r) {
-    for (int c = 0; c < (kDiagonal ? r + 1 : C); ++c) {
-      N sum = load(scaled[r * I]) * load(entry[c * I]);
-      for (int k = 1; k < I; ++k) sum = sum + load(scaled[r * I + k]) * load(entry[c * I + k]);
-      auto& target = to[kDiagonal ? triangle(r, c) : r * C + c];
-      store(target, load(target) - sum);
+// to -= L_qi A_pi^T
+template <int R, int C, int I, class N>
+void update(Num<N::kWidth>* to, const Column<R, N> (&scaled)[I], const Num<N::kWidth>* entry) {
+  Column<R, N> columns[C];
+  for (int c = 0; c < C; ++c) {
+    columns[c] = loadColumn<R, N>(to + c * R) - product<R, I, C>(scaled, entry + c);
+  }
+  for (int c = 0; c < C; ++c) storeColumn(to + c * R, columns[c]);
+}
+
+// The lower triangle of that of a block on the diagonal.
+template <int R, int I, class N>
+void updateDiagonal(Num<N::kWidth>* to, const Column<R, N> (&scaled)[I],
+                    const Num<N::kWidth>* entry) {
+  Num<N::kWidth> sums[R * R];
+  for (int c = 0; c < R; ++c) {
+    storeColumn(sums + c * R, product<R, I, R>(scaled, entry + c));
+  }
+  for (int c = 0; c < R; ++c) {
+    for (int r = c; r < R; ++r) {
+      auto& target = to[triangle(r, c)];
+      store(target, load(target) - load(sums[c * R + r]));
     }
   }
 }
@@ -250,25 +327,25 @@ void eliminate(const Of<N>& s, int i) {
       const JointBelow& q = below[used[u]];
       withSize(s.shapes[q.to].size, [&](auto high) {
         constexpr int kR = decltype(high)::value;
-        const auto* scaled = s.scaled + q.at;
-        scale<kR, kI, N>(s.entries + q.at, factor, s.scaled + q.at);
+        Column<kR, N> scaled[kI];
+        scale(s.entries + q.at, factor, s.scaled + q.at, scaled);
         const int* target = s.updates + column.updates + used[u] * (used[u] + 1) / 2;
         for (int v = 0; v < u; ++v) {
           const JointBelow& p = below[used[v]];
           if (p.to >= s.tailStart) {
             auto& entry = s.tail.a[triangle(q.to - s.tailStart, p.to - s.tailStart)];
-            update<1, 1, kI, false, N>(&entry, scaled, s.entries + p.at);
+            if constexpr (kR == 1) update<1, 1, kI, N>(&entry, scaled, s.entries + p.at);
             continue;
           }
           withSize(s.shapes[p.to].size, [&](auto wide) {
-            update<kR, decltype(wide)::value, kI, false, N>(s.entries + target[used[v]], scaled,
-                                                            s.entries + p.at);
+            update<kR, decltype(wide)::value, kI, N>(s.entries + target[used[v]], scaled,
+                                                     s.entries + p.at);
           });
         }
         auto* diagonal = q.to < s.tailStart
                              ? s.factors[q.to].diagonal
                              : &s.tail.a[triangle(q.to - s.tailStart, q.to - s.tailStart)];
-        update<kR, kR, kI, true, N>(diagonal, scaled, s.entries + q.at);
+        updateDiagonal<kR, kI, N>(diagonal, scaled, s.entries + q.at);
       });
     }
   });

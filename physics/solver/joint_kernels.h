@@ -158,11 +158,16 @@ void substitute(const Of<N>& s) {
         const JointBelow& q = below[used[u]];
         const auto* scaled = s.scaled + q.at;
         auto* right = s.rows[q.to].right;
-        for (int r = 0; r < s.shapes[q.to].size; ++r) {
-          N sum = load(scaled[r * kI]) * y[0];
-          for (int c = 1; c < kI; ++c) sum = sum + load(scaled[r * kI + c]) * y[c];
-          store(right[r], load(right[r]) - sum);
-        }
+        withSize(s.shapes[q.to].size, [&](auto high) {
+          constexpr int kR = decltype(high)::value;
+          N sum[kR];
+          for (int r = 0; r < kR; ++r) {
+            sum[r] = load(scaled[r]) * y[0];
+            for (int c = 1; c < kI; ++c) sum[r] = sum[r] + load(scaled[c * kR + r]) * y[c];
+            sum[r] = load(right[r]) - sum[r];
+          }
+          for (int r = 0; r < kR; ++r) store(right[r], sum[r]);
+        });
       }
     });
   }
@@ -185,10 +190,13 @@ void substitute(const Of<N>& s) {
       for (int u = 0; u < s.usedCounts[i]; ++u) {
         const JointBelow& q = below[used[u]];
         const auto* scaled = s.scaled + q.at;
-        for (int r = 0; r < s.shapes[q.to].size; ++r) {
-          const N right = load(s.rows[q.to].right[r]);
-          for (int c = 0; c < kI; ++c) y[c] = y[c] - load(scaled[r * kI + c]) * right;
-        }
+        withSize(s.shapes[q.to].size, [&](auto high) {
+          constexpr int kR = decltype(high)::value;
+          for (int r = 0; r < kR; ++r) {
+            const N right = load(s.rows[q.to].right[r]);
+            for (int c = 0; c < kI; ++c) y[c] = y[c] - load(scaled[c * kR + r]) * right;
+          }
+        });
       }
       for (int c = 0; c < kI; ++c) store(row.right[c], y[c]);
     });

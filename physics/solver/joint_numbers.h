@@ -49,6 +49,14 @@ inline bool anyPositive(Four test) {
 inline void put(double a, Four& to) { to.v = _mm256_set1_pd(a); }
 inline Four load(const Num<4>& p) { return {_mm256_load_pd(p.v)}; }
 inline void store(Num<4>& p, Four a) { _mm256_store_pd(p.v, a.v); }
+// Three that lie side by side anywhere; the fourth is none.
+inline Four loadThree(const double* p) {
+  return {_mm256_maskload_pd(p, _mm256_setr_epi64x(-1, -1, -1, 0))};
+}
+inline void storeThree(double* p, Four a) {
+  _mm_storeu_pd(p, _mm256_castpd256_pd128(a.v));
+  _mm_store_sd(p + 2, _mm256_extractf128_pd(a.v, 1));
+}
 
 #else
 
@@ -92,6 +100,11 @@ inline Four load(const Num<4>& p) { return {_mm_load_pd(p.v), _mm_load_pd(p.v + 
 inline void store(Num<4>& p, Four a) {
   _mm_store_pd(p.v, a.low);
   _mm_store_pd(p.v + 2, a.high);
+}
+inline Four loadThree(const double* p) { return {_mm_loadu_pd(p), _mm_load_sd(p + 2)}; }
+inline void storeThree(double* p, Four a) {
+  _mm_storeu_pd(p, a.low);
+  _mm_store_sd(p + 2, a.high);
 }
 
 #endif

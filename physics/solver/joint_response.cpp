@@ -116,7 +116,7 @@ template <int R, int C, int W, class Row>
 void takeAway(const Num<W>* scaled, int l, const Row& of, Row& to) {
   for (int r = 0; r < R; ++r) {
     auto row = to.row(r).eval();
-    for (int c = 0; c < C; ++c) row -= scaled[r * C + c].v[l] * of.row(c);
+    for (int c = 0; c < C; ++c) row -= scaled[c * R + r].v[l] * of.row(c);
     to.row(r) = row;
   }
 }
