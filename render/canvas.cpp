@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <stdexcept>
 
+#include "render/file_bytes.h"
 #include "render/gl.h"
 #include "render/marked_text.h"
 #include "render/shaders.h"
@@ -39,11 +39,11 @@ ImTextureID idOf(GLuint texture) {
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
 }
 
-std::vector<char> readFont(const std::string& file) {
+std::string readFont(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  std::string bytes = bytesOf(stream);
   if (!stream || bytes.size() < 4) throw std::runtime_error("cannot read the font " + file);
-  const std::string tag(bytes.data(), 4);
+  const std::string tag = bytes.substr(0, 4);
   if (tag != std::string("\0\1\0\0", 4) && tag != "true" && tag != "OTTO")
     throw std::runtime_error("not a TrueType font: " + file);
   return bytes;
@@ -64,7 +64,7 @@ struct Face {
   ImFont* font = nullptr;
   ImTextureID texture = nullptr;
 
-  Face(std::vector<char>& bytes, int size) {
+  Face(std::string& bytes, int size) {
     ImFontConfig config;
     config.FontData = bytes.data();
     config.FontDataSize = static_cast<int>(bytes.size());
@@ -96,7 +96,7 @@ struct Canvas::Impl {
   void slant(int firstVertex, float baseline);
   void uploadAndDraw() const;
 
-  std::vector<char> fontBytes;
+  std::string fontBytes;
   std::map<int, std::unique_ptr<Face>> faces;  // by size in pixels
   ImDrawListSharedData shared;
   ImDrawList list{&shared};

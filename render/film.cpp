@@ -6,10 +6,10 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "render/child.h"
+#include "render/file_bytes.h"
 #include "render/unfinished.h"
 
 namespace render {
@@ -93,7 +93,7 @@ std::vector<std::string> encoderArguments(const FilmOptions& options, const fs::
 void feedFrames(const std::vector<fs::path>& frames, const Feed& feed) {
   for (const fs::path& frame : frames) {
     std::ifstream stream(frame, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    const std::string bytes = bytesOf(stream);
     if (!stream || bytes.empty())
       throw FilmError(fmt::format("film: cannot read the frame {}", frame.string()));
     if (!feed(bytes.data(), bytes.size())) return;

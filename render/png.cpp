@@ -9,21 +9,21 @@
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "render/file_bytes.h"
 #include "render/png_notes.h"
 #include "render/unfinished.h"
 
 namespace {
 
 constexpr int kLevel = 1;  // half of stb's time is its own compressor; 1 is also smaller than that
-// Each row less the one above it. One filter for all rows: trying all five costs more than it saves,
-// and Paeth's, for files a tenth smaller, a quarter of the time.
+// Each row less the one above it. One filter for all rows: trying all five costs more than it
+// saves, and Paeth's, for files a tenth smaller, a quarter of the time.
 constexpr int kUpFilter = 2;
 
 // What stb calls instead of its own compressor; frees with STBIW_FREE.
@@ -135,7 +135,7 @@ Image readPng(const std::filesystem::path& file) {
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(errno != 0 ? errno : ENOENT, "cannot open", file);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string bytes = bytesOf(stream);
   Image image;
   int channels = 0;
   const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());

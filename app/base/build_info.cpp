@@ -6,7 +6,7 @@
 #include <xxhash.h>
 
 #include <fstream>
-#include <iterator>
+#include <vector>
 
 namespace app {
 
@@ -16,7 +16,14 @@ std::string compileFlags() { return DBD_FLAGS; }
 
 std::string programHash() {
   std::ifstream program("/proc/self/exe", std::ios::binary);
-  return hashText(std::string(std::istreambuf_iterator<char>(program), {}));
+  XXH3_state_t state;
+  XXH3_64bits_reset(&state);
+  std::vector<char> piece(1 << 20);
+  do {
+    program.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    XXH3_64bits_update(&state, piece.data(), static_cast<std::size_t>(program.gcount()));
+  } while (program);
+  return fmt::format("{:016x}", XXH3_64bits_digest(&state));
 }
 
 std::string hashText(std::string_view bytes) {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 
 #include "app/base/gnuplot.h"
 #include "app/base/numbers.h"
+#include "render/file_bytes.h"
 
 namespace app {
 
@@ -145,7 +145,7 @@ std::string chartScript(const Chart& chart) {
 void drawChart(const Chart& chart, const fs::path& folder) {
   const std::string script = chartScript(chart);
   std::ifstream in(folder / (chart.name + ".gp"), std::ios::binary);
-  const std::string known{std::istreambuf_iterator<char>(in), {}};
+  const std::string known = render::bytesOf(in);
   const bool isDrawn = fs::exists(folder / (chart.name + ".svg")) &&
                        fs::exists(folder / (chart.name + ".png")) && known == script;
   if (!isDrawn) runGnuplot(script, folder, chart.name);

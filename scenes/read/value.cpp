@@ -11,6 +11,13 @@
 #include "scenes/joined.h"
 
 namespace scenes {
+
+Value::Value() = default;
+Value::Value(const Value&) = default;
+Value::Value(Value&&) noexcept = default;
+Value& Value::operator=(const Value&) = default;
+Value& Value::operator=(Value&&) noexcept = default;
+Value::~Value() = default;
 namespace {
 
 size_t editDistance(const std::string& a, const std::string& b) {

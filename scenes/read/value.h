@@ -20,6 +20,13 @@ struct Member;
 
 struct Value {
   enum class Kind { kTable, kArray, kBoolean, kInteger, kNumber, kString, kDate };
+  Value();  // these out of line: hundreds of places make and drop one
+  Value(const Value&);
+  Value(Value&&) noexcept;
+  Value& operator=(const Value&);
+  Value& operator=(Value&&) noexcept;
+  ~Value();
+
   Kind kind = Kind::kTable;
   Place place;
   bool boolean = false;
