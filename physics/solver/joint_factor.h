@@ -1,7 +1,7 @@
 // The part of the joint kernels that builds A = J M^-1 J^T + alpha and factors it.
 #pragma once
 
-#include "physics/solver/joint_numbers.h"
+#include "physics/solver/joint_columns.h"
 
 namespace physics {
 namespace {
@@ -200,69 +200,6 @@ void invert(JointFactor<N::kWidth>& factor) {
 
 constexpr int symmetric(int r, int c) { return r > c ? triangle(r, c) : triangle(c, r); }
 
-// Columns of R rows, which lie one after the other in a block.
-template <int R, class N>
-struct Column {
-  N v[R];
-};
-template <int R, class N>
-Column<R, N> loadColumn(const Num<N::kWidth>* p) {
-  Column<R, N> column;
-  for (int r = 0; r < R; ++r) column.v[r] = load(p[r]);
-  return column;
-}
-template <int R, class N>
-void storeColumn(Num<N::kWidth>* p, const Column<R, N>& column) {
-  for (int r = 0; r < R; ++r) store(p[r], column.v[r]);
-}
-template <int R, class N>
-Column<R, N> operator*(const Column<R, N>& a, N b) {
-  Column<R, N> product;
-  for (int r = 0; r < R; ++r) product.v[r] = a.v[r] * b;
-  return product;
-}
-template <int R, class N>
-Column<R, N> operator+(const Column<R, N>& a, const Column<R, N>& b) {
-  Column<R, N> sum;
-  for (int r = 0; r < R; ++r) sum.v[r] = a.v[r] + b.v[r];
-  return sum;
-}
-template <int R, class N>
-Column<R, N> operator-(const Column<R, N>& a, const Column<R, N>& b) {
-  Column<R, N> difference;
-  for (int r = 0; r < R; ++r) difference.v[r] = a.v[r] - b.v[r];
-  return difference;
-}
-
-// One lane takes the three rows in a register.
-template <>
-struct Column<3, One> {
-  Four v;
-};
-template <>
-inline Column<3, One> loadColumn<3, One>(const Num<1>* p) {
-  return {loadThree(p->v)};
-}
-template <>
-inline void storeColumn<3, One>(Num<1>* p, const Column<3, One>& column) {
-  storeThree(p->v, column.v);
-}
-inline Column<3, One> operator*(const Column<3, One>& a, One b) { return {a.v * all<Four>(b.v)}; }
-inline Column<3, One> operator+(const Column<3, One>& a, const Column<3, One>& b) {
-  return {a.v + b.v};
-}
-inline Column<3, One> operator-(const Column<3, One>& a, const Column<3, One>& b) {
-  return {a.v - b.v};
-}
-
-// A column of A B: `a` by its columns, and of B's column the K numbers that lie kStep apart.
-template <int R, int K, int kStep, class N>
-Column<R, N> product(const Column<R, N> (&a)[K], const Num<N::kWidth>* b) {
-  Column<R, N> sum = a[0] * load(b[0]);
-  for (int k = 1; k < K; ++k) sum = sum + a[k] * load(b[k * kStep]);
-  return sum;
-}
-
 // L_ki = A_ki D_ii^-1
 template <int R, int C, class N>
 void scale(const Num<N::kWidth>* entry, const JointFactor<N::kWidth>& factor,
@@ -332,7 +269,7 @@ void eliminate(const Of<N>& s, int i) {
         const int* target = s.updates + column.updates + used[u] * (used[u] + 1) / 2;
         for (int v = 0; v < u; ++v) {
           const JointBelow& p = below[used[v]];
-          if (p.to >= s.tailStart) {
+          if (p.to >= s.tailStart) {  // so is q.to: rows of the tail are one high
             auto& entry = s.tail.a[triangle(q.to - s.tailStart, p.to - s.tailStart)];
             if constexpr (kR == 1) update<1, 1, kI, N>(&entry, scaled, s.entries + p.at);
             continue;
