@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "app/base/gnuplot.h"
 #include "app/base/numbers.h"
-#include "render/file_bytes.h"
+#include "scenes/read/file_text.h"
 
 namespace app {
 
@@ -144,8 +143,7 @@ std::string chartScript(const Chart& chart) {
 
 void drawChart(const Chart& chart, const fs::path& folder) {
   const std::string script = chartScript(chart);
-  std::ifstream in(folder / (chart.name + ".gp"), std::ios::binary);
-  const std::string known = render::bytesOf(in);
+  const auto known = scenes::fileText(folder / (chart.name + ".gp"));
   const bool isDrawn = fs::exists(folder / (chart.name + ".svg")) &&
                        fs::exists(folder / (chart.name + ".png")) && known == script;
   if (!isDrawn) runGnuplot(script, folder, chart.name);

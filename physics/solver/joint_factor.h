@@ -212,7 +212,7 @@ void scale(const Num<N::kWidth>* entry, const JointFactor<N::kWidth>& factor,
       columns[c] = columns[c] + a[k] * load(factor.inverse[symmetric(k, c)]);
     }
   }
-  for (int c = 0; c < C; ++c) storeColumn(scaled + c * R, columns[c]);
+  for (int c = 0; c < C; ++c) storeColumn<R, N>(scaled + c * R, columns[c]);
 }
 
 // to -= L_qi A_pi^T
@@ -220,9 +220,9 @@ template <int R, int C, int I, class N>
 void update(Num<N::kWidth>* to, const Column<R, N> (&scaled)[I], const Num<N::kWidth>* entry) {
   Column<R, N> columns[C];
   for (int c = 0; c < C; ++c) {
-    columns[c] = loadColumn<R, N>(to + c * R) - product<R, I, C>(scaled, entry + c);
+    columns[c] = loadColumn<R, N>(to + c * R) - product<R, I, C, N>(scaled, entry + c);
   }
-  for (int c = 0; c < C; ++c) storeColumn(to + c * R, columns[c]);
+  for (int c = 0; c < C; ++c) storeColumn<R, N>(to + c * R, columns[c]);
 }
 
 // The lower triangle of that of a block on the diagonal.
@@ -231,7 +231,7 @@ void updateDiagonal(Num<N::kWidth>* to, const Column<R, N> (&scaled)[I],
                     const Num<N::kWidth>* entry) {
   Num<N::kWidth> sums[R * R];
   for (int c = 0; c < R; ++c) {
-    storeColumn(sums + c * R, product<R, I, R>(scaled, entry + c));
+    storeColumn<R, N>(sums + c * R, product<R, I, R, N>(scaled, entry + c));
   }
   for (int c = 0; c < R; ++c) {
     for (int r = c; r < R; ++r) {
@@ -265,7 +265,7 @@ void eliminate(const Of<N>& s, int i) {
       withSize(s.shapes[q.to].size, [&](auto high) {
         constexpr int kR = decltype(high)::value;
         Column<kR, N> scaled[kI];
-        scale(s.entries + q.at, factor, s.scaled + q.at, scaled);
+        scale<kR, kI, N>(s.entries + q.at, factor, s.scaled + q.at, scaled);
         const int* target = s.updates + column.updates + used[u] * (used[u] + 1) / 2;
         for (int v = 0; v < u; ++v) {
           const JointBelow& p = below[used[v]];

@@ -18,6 +18,7 @@ Value::Value(Value&&) noexcept = default;
 Value& Value::operator=(const Value&) = default;
 Value& Value::operator=(Value&&) noexcept = default;
 Value::~Value() = default;
+
 namespace {
 
 size_t editDistance(const std::string& a, const std::string& b) {
