@@ -103,17 +103,33 @@ std::size_t spanOf(const Plot& plot) {
   return span;
 }
 
-// Smaller where it is long, and cut where it is longer than that.
-void drawTitle(const Pen& pen, std::string title, float x, float y) {
-  float size = kTitleSize;
-  while (size > kPlotSize && pen.widthOf(title, size) > kInside) size -= 1;
-  const std::string end = pen.widthOf(title, size) > kInside ? "…" : "";
-  while (!title.empty() && pen.widthOf(title + end, size) > kInside) {
-    const auto continues = [&] { return (title.back() & 0xC0) == 0x80; };  // a letter of UTF-8
-    while (title.size() > 1 && continues()) title.pop_back();
-    title.pop_back();
+// Words that fit: smaller where they are long, and cut where they are longer than that.
+struct Fitted {
+  std::string words;
+  float size;
+};
+
+Fitted fit(const Pen& pen, std::string words, float size, float width) {
+  while (size > kPlotSize && pen.widthOf(words, size) > width) size -= 1;
+  const std::string end = pen.widthOf(words, size) > width ? "…" : "";
+  while (!words.empty() && pen.widthOf(words + end, size) > width) {
+    const auto continues = [&] { return (words.back() & 0xC0) == 0x80; };  // a letter of UTF-8
+    while (words.size() > 1 && continues()) words.pop_back();
+    words.pop_back();
   }
-  pen.left(x, y + kTitleSize - 3, size, kHudInk, title + end);
+  return {words + end, size};
+}
+
+void drawTitle(const Pen& pen, const std::string& title, float x, float y) {
+  const Fitted fitted = fit(pen, title, kTitleSize, kInside);
+  pen.left(x, y + kTitleSize - 3, fitted.size, kHudInk, fitted.words);
+}
+
+void drawRow(const Pen& pen, const std::string& name, const std::string& value, float x, float y) {
+  pen.left(x, y + kRowSize - 2, kRowSize, kQuiet, name);
+  const float left = kInside - pen.widthOf(name, kRowSize) - kNameGap;
+  const Fitted fitted = fit(pen, value, kRowSize, left);
+  pen.right(x + kInside, y + kRowSize - 2, fitted.size, kHudInk, fitted.words);
 }
 
 std::string titleOf(const Plot& plot) {
@@ -164,8 +180,7 @@ float drawPlotTitle(const Pen& pen, const Plot& plot, float x, float y) {
 void drawBar(const Pen& pen, const Bar& bar, float x, float y) {
   const float right = x + kInside, top = y + kRowStep;
   const auto at = [&](float share) { return x + std::clamp(share, 0.0f, 1.0f) * (right - x); };
-  pen.left(x, y + kRowSize - 2, kRowSize, kQuiet, bar.name);
-  pen.right(right, y + kRowSize - 2, kRowSize, kHudInk, bar.value);
+  drawRow(pen, bar.name, bar.value, x, y);
   pen.canvas().fill(pen.at(x, top), pen.at(right, top + kBarHeight), kBeyond);
   pen.canvas().fill(pen.at(x, top), pen.at(at(bar.end), top + kBarHeight), kHolds);
   pen.canvas().fill(pen.at(at(bar.now) - 1, top - 2), pen.at(at(bar.now) + 1, top + kBarHeight + 2),
@@ -230,13 +245,12 @@ void drawHud(Canvas& canvas, const Hud& hud, float scale) {
               to = pen.at(kHudMargin + kWidth, kHudMargin + height);
   canvas.fill(from, to, kPanel, 5 * scale);
   canvas.outline(from, to, kRim, std::max(1.0f, std::round(scale)), 5 * scale);
-  const float x = kHudMargin + kHudPadding, right = kHudMargin + kWidth - kHudPadding;
+  const float x = kHudMargin + kHudPadding;
   float y = kHudMargin + kHudPadding;
   drawTitle(pen, hud.title, x, y);
   y += title;
   for (const auto& [name, value] : hud.rows) {
-    pen.left(x, y + kRowSize - 2, kRowSize, kQuiet, name);
-    pen.right(right, y + kRowSize - 2, kRowSize, kHudInk, value);
+    drawRow(pen, name, value, x, y);
     y += kRowStep;
   }
   for (const Bar& bar : hud.bars) {

@@ -50,8 +50,7 @@ Json describeSettings(const scenes::Scene& scene) {
                {"stepping", scenes::wordOf(s.stepping)},
                {"relaxation", s.relaxation},
                {"regularisation", s.regularisation}};
-  const bool isOfIslands = s.method == physics::Method::kSmallSteps && !s.substeps;
-  json["substeps"] = isOfIslands ? Json() : Json(s.substepCount());
+  json["substeps"] = s.choosesSubsteps() ? Json() : Json(s.substepCount());
   json["accuracy"] = s.accuracy ? Json(*s.accuracy) : Json();
   json["gravity"] = s.gravity ? toJson(*s.gravity) : Json();
   json["contact"] = s.contact ? describeContact(*s.contact) : Json();

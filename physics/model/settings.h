@@ -50,6 +50,7 @@ struct Settings {
   // Absent: four, but of the default method each island takes what it asks for; else no fewer.
   std::optional<int> substeps;
   int substepCount() const { return substeps.value_or(4); }
+  bool choosesSubsteps() const { return method == Method::kSmallSteps && !substeps; }
   int iterations = 1;               // sweeps over all constraints per substep, N of Algorithm 1
   std::optional<double> tolerance;  // more of them, while one still moves a body by more [m]
   int maxIterations = 40;           // and no more than these

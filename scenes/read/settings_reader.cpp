@@ -160,8 +160,7 @@ const char* wordOf(physics::Method method) { return kMethods[static_cast<int>(me
 const char* wordOf(physics::Stepping stepping) { return kSteppings[static_cast<int>(stepping)]; }
 
 std::string substepsText(const physics::Settings& s) {
-  const bool isOfIslands = s.method == physics::Method::kSmallSteps && !s.substeps;
-  if (isOfIslands) return "substeps as each island asks";
+  if (s.choosesSubsteps()) return "substeps as each island asks";
   return fmt::format("{} substep{}", s.substepCount(), s.substepCount() == 1 ? "" : "s");
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scenes/read/settings_reader.h"
 #include "scenes/vectors.h"
@@ -112,6 +113,32 @@ render::Plot residualPlot(const std::vector<FrameMetrics>& history, int length) 
 }
 
 // What steps by an accuracy told in this frame, and the sum of its estimates so far.
+// The fewest and the most that an awake body was stepped in.
+std::string substepsTaken(const Simulation& simulation) {
+  if (simulation.frame() == 0) return "as each island asks";
+  const physics::World& world = simulation.world();
+  const physics::Bodies& bodies = world.bodies();
+  int least = std::numeric_limits<int>::max(), most = 0;
+  for (physics::BodyId b = 1; b < bodies.size(); ++b) {
+    if (bodies.motion[b] != physics::Motion::kDynamic || world.isAsleep(b)) continue;
+    least = std::min(least, world.substepsOf(b));
+    most = std::max(most, world.substepsOf(b));
+  }
+  if (most == 0) return "none";
+  return least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most);
+}
+
+void addStepRows(const Simulation& simulation, render::Hud& hud) {
+  const Scene& scene = simulation.scene();
+  hud.rows.push_back({"step", fmt::format("1/{} s", scene.fps)});
+  if (scene.settings.choosesSubsteps()) {
+    hud.rows.push_back({"substeps", substepsTaken(simulation)});
+    return;
+  }
+  hud.rows.push_back({"substeps", fmt::format("{}", scene.settings.substepCount())});
+  hud.rows.push_back({"iterations", fmt::format("{} per substep", scene.settings.iterations)});
+}
+
 void addAccuracyRows(const std::vector<FrameMetrics>& history, double accuracy, render::Hud& hud) {
   double estimate = 0;
   for (const FrameMetrics& frame : history) estimate += frame.accuracy.estimate;
@@ -163,8 +190,7 @@ render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics
   if (settings.accuracy) {
     addAccuracyRows(history, *settings.accuracy, hud);
   } else {
-    hud.rows.push_back({"step", fmt::format("1/{} s, {}", scene.fps, substepsText(settings))});
-    hud.rows.push_back({"iterations", fmt::format("{} per substep", settings.iterations)});
+    addStepRows(simulation, hud);
   }
   const auto& motion = simulation.world().bodies().motion;
   const auto moving = std::count_if(motion.begin(), motion.end(), [](physics::Motion m) {

@@ -95,6 +95,16 @@ TEST_F(Overlay, KeepsNamesAndTitleInThePanel) {
   EXPECT_EQ(drawn(picture, 8 + 134 + 2, 0, 640, 360), 0);
 }
 
+TEST_F(Overlay, KeepsAValueClearOfItsName) {
+  Picture picture = flat();
+  picture.hud.visible = true;
+  picture.hud.rows = {{"step", ""}};
+  const int name = drawn(picture, 14, 8, 14 + 17, 360);
+  picture.hud.rows = {{"step", std::string(120, 'i')}};
+  EXPECT_EQ(drawn(picture, 14, 8, 14 + 17, 360), name);
+  EXPECT_GT(drawn(picture, 14 + 24, 8, 8 + 132, 360), 100);
+}
+
 TEST_F(Overlay, KeepsThePanelWhereItIsWhileThePlotsGrow) {
   Picture picture = flat();
   picture.hud = sampleHud(2);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scenes/view/camera.h"
+#include "scenes/view/overlays.h"
 #include "scenes/view/palette.h"
 #include "scenes/view/view.h"
 #include "tests/scenes/picture_of.h"
@@ -106,6 +107,20 @@ TEST(View, ShowsTheTitleInTheHud) {
   ViewOptions options;
   options.hud = true;
   EXPECT_EQ(pictureOf("title = \"A ball\"\n" + ball("a"), options).hud.title, "A ball");
+}
+
+std::string rowOf(const render::Hud& hud, const std::string& name) {
+  for (const auto& [key, value] : hud.rows)
+    if (key == name) return value;
+  return "(absent)";
+}
+
+TEST(View, ShowsTheSubstepsThatWereTaken) {
+  Simulation run(sceneOf("[simulation]\nfps = 60\n[[body]]\nshape = { plane = {} }\n" + ball("a") +
+                         "position = [0, 1.01, 0]\n"));
+  EXPECT_EQ(rowOf(makeHud(run, {}), "substeps"), "as each island asks");
+  for (int i = 0; i < 120; ++i) run.advance();
+  EXPECT_EQ(rowOf(makeHud(run, {}), "substeps"), "4");
 }
 
 TEST(Palette, GivesNeighbouringHuesThatDifferInLightnessOrHue) {
