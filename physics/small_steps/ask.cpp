@@ -7,15 +7,17 @@
 namespace physics {
 namespace {
 
-// What contacts may give way by on the average of their load: as a share of the smaller body, or
-// what the two move past each other in a substep of the longest, within which they meet, but never
-// by a larger share of the body than meshes.
-constexpr double kLargestSag = 1.25e-4, kLargestSagOfWay = 1.0 / kLeastSwept;
-// Of what the springs are drawn by at rest nothing shows, but a column of n bodies that stand on
-// springs buckles under its own weight where the lowest gives way by 2 a / n^2 (7.84 EI = q L^3).
-// On the average of the load that is 0.38 of a cube's radius over (n/2)^2, n/2 being how often the
-// contacts carry the weight of an island: a quarter of it.
-constexpr double kLargestDrawn = 0.1;
+// What contacts may give way by on the average of their load, of which nothing shows: as a share of
+// what the thinner body is thick; or what the two move past each other in a substep of the longest,
+// within which they meet, but never by a larger share of the smaller body than meshes.
+constexpr double kLargestSag = 2.5e-4, kLargestSagOfWay = 1.0 / kLeastSwept;
+// A column of n bodies that stand on springs buckles under its own weight where the lowest gives
+// way by 2 a / n^2 (7.84 EI = q L^3). On the average of the load that is 0.38 of a cube's radius
+// over (n/2)^2, n/2 being how often the contacts carry the weight of an island: a quarter of it,
+// and of no island less than what a column of a hundred bears. Of what springs are drawn by from
+// the start nothing else counts, and that in the root mean square: what stands on one that is much
+// smaller falls by that one's alone.
+constexpr double kLargestOfColumn = 0.1, kLeastSag = 1.25e-4;
 // What the last velocity sweep may change, of the energy that an island has in g h^2, so that what
 // stands comes to rest, and of that in motion of what touches past each other: the way of that is
 // of first order.
@@ -34,18 +36,23 @@ int substepsForTurn(double turn) {
 
 }  // namespace
 
-// The sag that is small enough for a contact [m], by an accuracy too: columns buckle by it.
-double SmallSteps::Impl::smallSag(const Model& w, const KeptContact& c, double size) const {
+// What the two bodies of a contact move past each other by, as a share of `size`, the smaller's.
+double SmallSteps::Impl::sagOfWay(const Model& w, const KeptContact& c, double size) const {
   const Bodies& b = w.bodies;
   const double way = w.settings.dt * (b.velocity[c.a].v - b.velocity[c.b].v).norm();
-  return std::max(kLargestSag * size, std::min(kLargestSagOfWay * way, kLargestStrain * size));
+  return std::min(kLargestSagOfWay * way / size, kLargestStrain);
+}
+
+// The sag that an island bears where it stands.
+double SmallSteps::Impl::sagOfColumn(BodyId root) const {
+  const double column = weight[root] > 0 ? carried[root] / weight[root] : 0;
+  return std::max(kLeastSag, kLargestOfColumn / std::max(column * column, 1.0));
 }
 
 // What the sag of an island is to be, as a share of what is small.
 double SmallSteps::Impl::sagOf(BodyId root) const {
-  const double column = weight[root] > 0 ? carried[root] / weight[root] : 0;
-  const double small = std::max(kLargestSag, kLargestDrawn / std::max(column * column, 1.0));
-  return (sag[root] + drawn[root] * kLargestSag / small) / load[root];
+  const double borne = std::max(sagOfColumn(root), load[root] / carried[root]);
+  return sag[root] / load[root] + std::sqrt(drawn[root] / carried[root]) / borne;
 }
 
 // The energy of islands, by their first body, that the last sweep may change.
@@ -80,16 +87,16 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const Batch& b
   const double soft = (1 - law.scale) / (law.scale * law.rate);
   const double size = std::min(radius[c.a], radius[c.b]);
   if (!(size > 0) || (isJointed(c) && !batch.isAtOnce)) return of;
-  const double small = smallSag(w, c, size);
+  of.way = sagOfWay(w, c, size);
+  of.seen = std::max(kLeastSag, kLargestSag * std::min(thickness[c.a], thickness[c.b]) / size);
   for (int k = 0; k < c.count; ++k) {
     const double inverse = block.point[k].inverse[l];
     const double lambda = c.stayed(k);
     if (!(inverse > 0)) continue;
     const double held = std::min<double>(lambda, block.held[k][l]);
     const double share = lambda * soft / inverse / size;
-    of.load += lambda * small / size;
     of.sag += share * (lambda - held);
-    of.drawn += share * held;
+    of.drawn += lambda * std::pow(held * soft / inverse / size, 2);
     of.carried += lambda;
   }
   return of;
@@ -112,10 +119,14 @@ void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch) {
       changeBefore[of.root] += of.changeBefore;
       energy[of.root] += of.energy;
       whole[of.root] += of.energy / kMotion;
-      load[of.root] += of.load;
       sag[of.root] += of.sag;
       drawn[of.root] += of.drawn;
       carried[of.root] += of.carried;
+    }
+  }
+  for (const auto& lanes : weighed) {
+    for (const Weighed& of : lanes) {
+      load[of.root] += of.carried * std::max(std::min(of.seen, sagOfColumn(of.root)), of.way);
     }
   }
 }

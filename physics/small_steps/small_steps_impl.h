@@ -467,10 +467,12 @@ struct SmallSteps::Impl {
   void holdCarried(const Model& w, const Batch& batch, double h);
   void takeOver(const Bodies& b, const ContactBlock& block, int l);
   double sagOf(BodyId root) const;
+  double sagOfColumn(BodyId root) const;
   void weighMotion(const Model& w, const Batch& batch);
   struct Weighed {  // a contact, of what its island is weighed by
     BodyId root = kWorldBody;
-    double change = 0, changeBefore = 0, energy = 0, load = 0, sag = 0, drawn = 0, carried = 0;
+    double change = 0, changeBefore = 0, energy = 0, way = 0, seen = 0, sag = 0, drawn = 0,
+           carried = 0;
   };
   std::vector<std::array<Weighed, ContactBlock::kLanes>> weighed;  // scratch, by block
   Weighed weigh(const Model& w, const Batch& batch, const ContactBlock& block, int l) const;
@@ -517,7 +519,7 @@ struct SmallSteps::Impl {
   BodyId rootOf(const Model& w, const KeptContact& c) const;
   double lengthOf(const Bodies& b, const KeptContact& c) const;
   bool isJointed(const KeptContact& c) const;
-  double smallSag(const Model& w, const KeptContact& c, double size) const;
+  double sagOfWay(const Model& w, const KeptContact& c, double size) const;
   Softness softnessOf(const Bodies& b, const Batch& batch, const KeptContact& c) const;
   void takeSlots(const Bodies& b, ContactBlock& block, int l) const;
   void fill(const Model& w, const Batch& batch, ContactBlock& block) const;
