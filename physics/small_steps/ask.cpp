@@ -88,7 +88,11 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const Batch& b
   const double size = std::min(radius[c.a], radius[c.b]);
   if (!(size > 0) || (isJointed(c) && !batch.isAtOnce)) return of;
   of.way = sagOfWay(w, c, size);
-  of.seen = std::max(kLeastSag, kLargestSag * std::min(thickness[c.a], thickness[c.b]) / size);
+  of.seen = kLeastSag;
+  if (!w.settings.accuracy) {  // more would show in what is asked for
+    const double thinner = std::min(thickness[c.a], thickness[c.b]);
+    of.seen = std::max(kLeastSag, kLargestSag * thinner / size);
+  }
   for (int k = 0; k < c.count; ++k) {
     const double inverse = block.point[k].inverse[l];
     const double lambda = c.stayed(k);

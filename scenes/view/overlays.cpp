@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "scenes/read/settings_reader.h"
 #include "scenes/vectors.h"
 #include "scenes/view/arm_overlay.h"
 #include "scenes/view/palette.h"
@@ -113,26 +111,10 @@ render::Plot residualPlot(const std::vector<FrameMetrics>& history, int length) 
 }
 
 // What steps by an accuracy told in this frame, and the sum of its estimates so far.
-// The fewest and the most that an awake body was stepped in.
-std::string substepsTaken(const Simulation& simulation) {
-  if (simulation.frame() == 0) return "as each island asks";
-  const physics::World& world = simulation.world();
-  const physics::Bodies& bodies = world.bodies();
-  int least = std::numeric_limits<int>::max(), most = 0;
-  for (physics::BodyId b = 1; b < bodies.size(); ++b) {
-    if (bodies.motion[b] != physics::Motion::kDynamic || world.isAsleep(b)) continue;
-    least = std::min(least, world.substepsOf(b));
-    most = std::max(most, world.substepsOf(b));
-  }
-  if (most == 0) return "none";
-  return least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most);
-}
-
-void addStepRows(const Simulation& simulation, render::Hud& hud) {
-  const Scene& scene = simulation.scene();
+void addStepRows(const Scene& scene, render::Hud& hud) {
   hud.rows.push_back({"step", fmt::format("1/{} s", scene.fps)});
   if (scene.settings.choosesSubsteps()) {
-    hud.rows.push_back({"substeps", substepsTaken(simulation)});
+    hud.rows.push_back({"substeps", "as each island asks"});
     return;
   }
   hud.rows.push_back({"substeps", fmt::format("{}", scene.settings.substepCount())});
@@ -190,7 +172,7 @@ render::Hud makeHud(const Simulation& simulation, const std::vector<FrameMetrics
   if (settings.accuracy) {
     addAccuracyRows(history, *settings.accuracy, hud);
   } else {
-    addStepRows(simulation, hud);
+    addStepRows(scene, hud);
   }
   const auto& motion = simulation.world().bodies().motion;
   const auto moving = std::count_if(motion.begin(), motion.end(), [](physics::Motion m) {
