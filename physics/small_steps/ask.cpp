@@ -14,9 +14,9 @@ constexpr double kLargestSag = 2.5e-4, kLargestSagOfWay = 1.0 / kLeastSwept;
 // A column of n bodies that stand on springs buckles under its own weight where the lowest gives
 // way by 2 a / n^2 (7.84 EI = q L^3). On the average of the load that is 0.38 of a cube's radius
 // over (n/2)^2, n/2 being how often the contacts carry the weight of an island: a quarter of it,
-// and of no island less than what a column of a hundred bears. Of what springs are drawn by from
-// the start nothing else counts, and that in the root mean square: what stands on one that is much
-// smaller falls by that one's alone.
+// and never less than what a column of a hundred just bears (1.5e-4), nor does anything less show.
+// Of what springs are drawn by from the start that alone counts, in the root mean square: what
+// stands on one that is much smaller falls by that one's springs.
 constexpr double kLargestOfColumn = 0.1, kLeastSag = 1.25e-4;
 // What the last velocity sweep may change, of the energy that an island has in g h^2, so that what
 // stands comes to rest, and of that in motion of what touches past each other: the way of that is

@@ -110,7 +110,6 @@ render::Plot residualPlot(const std::vector<FrameMetrics>& history, int length) 
   return plot;
 }
 
-// What steps by an accuracy told in this frame, and the sum of its estimates so far.
 void addStepRows(const Scene& scene, render::Hud& hud) {
   hud.rows.push_back({"step", fmt::format("1/{} s", scene.fps)});
   if (scene.settings.choosesSubsteps()) {
@@ -121,6 +120,7 @@ void addStepRows(const Scene& scene, render::Hud& hud) {
   hud.rows.push_back({"iterations", fmt::format("{} per substep", scene.settings.iterations)});
 }
 
+// What steps by an accuracy told in this frame, and the sum of its estimates so far.
 void addAccuracyRows(const std::vector<FrameMetrics>& history, double accuracy, render::Hud& hud) {
   double estimate = 0;
   for (const FrameMetrics& frame : history) estimate += frame.accuracy.estimate;
