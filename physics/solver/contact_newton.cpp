@@ -42,13 +42,14 @@ Vec3 rateOf(const ContactNewton::Joint& j, const X& x) {
 void ContactNewton::layOut(std::span<const ContactBlock> blocks, std::span<const LaneMass> masses) {
   places_.assign(masses.size(), -1);
   inverse_.assign(masses.size(), 0);
-  std::vector<std::array<int, 2>> entries;
+  std::swap(entries_, entriesBefore_);
+  entries_.clear();
   int count = 0;
   for (std::size_t s = 1; s < masses.size(); ++s) {
     if (!(masses[s].inverse > 0)) continue;
     inverse_[s] = masses[s].inverse;
     const int u = places_[s] = count, turn = u + 1;
-    entries.insert(entries.end(), {{u, u}, {turn, u}, {turn, turn}});
+    entries_.insert(entries_.end(), {{u, u}, {turn, u}, {turn, turn}});
     count += 2;
   }
   const auto addPair = [&](int slotA, int slotB) {
@@ -56,13 +57,13 @@ void ContactNewton::layOut(std::span<const ContactBlock> blocks, std::span<const
     if (a < 0 || b < 0) return;
     const auto [low, high] = std::minmax(a, b);
     for (const int row : {high, high + 1}) {
-      for (const int column : {low, low + 1}) entries.push_back({row, column});
+      for (const int column : {low, low + 1}) entries_.push_back({row, column});
     }
   };
   forEachLane(blocks,
               [&](const ContactBlock& block, int l) { addPair(block.bodyA[l], block.bodyB[l]); });
   for (const Joint& joint : joints) addPair(joint.a, joint.b);
-  factor_.layOut(entries);
+  if (entries_ != entriesBefore_) factor_.layOut(entries_);
   own_.resize(masses.size());
   for (Motions* of : {&before_, &x_, &next_}) of->resize(masses.size());
   solved_.resize(count);

@@ -11,6 +11,7 @@
 // with contacts and constraints", ICRA 2014.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -98,6 +99,7 @@ class ContactNewton {
 
   std::vector<int> places_;      // by slot: of its u in the matrix, its turn follows; -1: given
   std::vector<double> inverse_;  // by slot: 1/m
+  std::vector<std::array<int, 2>> entries_, entriesBefore_;  // of the factor, as it is laid out
   BlockFactor factor_;
   std::vector<Contact> contacts_;
   std::vector<Row> rows_;
