@@ -41,7 +41,7 @@ void SmallSteps::Impl::layAtOnce(Batch& batch) {
   if (!batch.isAtOnce) return;
   takeJoints(batch);
   newton.layOut(batch.blocks, batch.masses);
-  batch.isAtOnce = newton.productCount() <= kMostProductsAtOnce;
+  batch.isAtOnce = newton.multiplications() <= kMostMultipliedAtOnce;
   if (!batch.isAtOnce) return;
   for (const int k : batch.contacts) contacts[k].held = {};
 }
@@ -59,8 +59,10 @@ void SmallSteps::Impl::takeJoints(Batch& batch) {
   for (const SharedRow& row : sharedRows) {
     const int a = row.bodies[0] == kWorldBody ? 0 : slotOf[row.bodies[0]];
     const int b = row.bodies[1] == kWorldBody ? 0 : slotOf[row.bodies[1]];
-    newton.joints.push_back({a, b, row.rows, row.linear[0], row.linear[1],
-                             row.angular[0] * rootOf(a), row.angular[1] * rootOf(b), row.alpha});
+    ContactNewton::Joint& joint = newton.joints.emplace_back();
+    joint.a = a, joint.b = b, joint.rows = row.rows, joint.alpha = row.alpha;
+    joint.ofA << row.linear[0], row.angular[0] * rootOf(a);
+    joint.ofB << row.linear[1], row.angular[1] * rootOf(b);
   }
 }
 

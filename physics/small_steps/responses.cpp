@@ -111,7 +111,7 @@ void SmallSteps::Impl::prepareResponses(Batch& batch, ContactBlock& m, int l) co
   const auto own = [&](int slot) {
     const Responder& r = batch.responders[slot];
     if (r.articulation >= 0) {
-      return articulations[r.articulation].response().between(r.place, r.place);
+      return articulations[r.articulation].response().own(r.place);
     }
     SixBySix alone = SixBySix::Zero();
     if (slot > 0) alone.diagonal() << Vec3::Constant(batch.masses[slot].inverse), Vec3::Ones();

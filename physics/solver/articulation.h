@@ -56,6 +56,7 @@ class JointResponse {
   void forgetPulls();                            // once all that was given is taken
   Six movedBy(int place) const;                  // by what was given, to all of them
   SixBySix between(int place, int other) const;  // R
+  const SixBySix& own(int place) const { return touched_[place].own; }  // the same of one
 
  private:
   template <int W>
@@ -68,7 +69,7 @@ class JointResponse {
   struct Body {
     int body;  // of the articulation
     LaneMass mass;
-    SixBySix alone = SixBySix::Zero();  // M^-1
+    SixBySix alone = SixBySix::Zero(), own = alone;  // M^-1, R
     Six given = Six::Zero();
   };
   template <class Entries>

@@ -1,3 +1,3 @@
 // Products of blocks in AVX2 registers: compiled with -mavx2, called where the processor has it.
-#define KERNEL kSubtractProductsAvx2
+#define KERNELS kBlockKernelsAvx2
 #include "physics/solver/block_kernels.h"

@@ -9,46 +9,67 @@ namespace physics {
 namespace {
 
 // L^-1 of a = L L^T.
-Mat3 inverseOfLower(const Mat3& a) {
-  const double l00 = std::sqrt(a(0, 0)), i00 = 1 / l00;
-  const double l10 = a(1, 0) * i00, l20 = a(2, 0) * i00;
-  const double i11 = 1 / std::sqrt(a(1, 1) - l10 * l10);
-  const double l21 = (a(2, 1) - l20 * l10) * i11;
-  const double i22 = 1 / std::sqrt(a(2, 2) - l20 * l20 - l21 * l21);
-  Mat3 inverse = Mat3::Zero();
-  inverse(0, 0) = i00;
-  inverse(1, 1) = i11;
-  inverse(2, 2) = i22;
-  inverse(1, 0) = -l10 * i00 * i11;
-  inverse(2, 1) = -l21 * i11 * i22;
-  inverse(2, 0) = -(l20 * i00 + l21 * inverse(1, 0)) * i22;
-  return inverse;
+template <int N>
+void invertLower(const PaddedBlock<N>& a, PaddedBlock<N>& inverse) {
+  double l[N][N], x[N][N];
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double sum = a.matrix()(i, j);
+      for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+      l[i][j] = j < i ? sum * x[j][j] : 0;
+      if (j == i) x[i][i] = 1 / std::sqrt(sum);
+    }
+  }
+  for (int j = 0; j < N; ++j) {
+    for (int i = j + 1; i < N; ++i) {
+      double sum = l[i][j] * x[j][j];
+      for (int k = j + 1; k < i; ++k) sum += l[i][k] * x[k][j];
+      x[i][j] = -sum * x[i][i];
+    }
+    for (int i = 0; i < N; ++i) inverse.matrix()(i, j) = i < j ? 0 : x[i][j];
+  }
 }
 
-template <class M>
-void subtract(Vec3& from, const M& block, const Vec3& x) {
+template <int N, class M>
+void subtract(Eigen::Matrix<double, N, 1>& from, const M& block,
+              const Eigen::Matrix<double, N, 1>& x) {
   from.noalias() -= block.lazyProduct(x);
 }
 
 // Row by row, all sides at once.
-template <class M>
-void subtract(BlockFactor::Sides& from, const M& block, const BlockFactor::Sides& x) {
-  for (int i = 0; i < 3; ++i) {
-    const double a = block(i, 0), b = block(i, 1), c = block(i, 2);
-    from.row(i).array() -= a * x.row(0).array() + b * x.row(1).array() + c * x.row(2).array();
+template <int N, class M>
+void subtract(Eigen::Matrix<double, N, BlockFactor<N>::kSides, Eigen::RowMajor>& from,
+              const M& block,
+              const Eigen::Matrix<double, N, BlockFactor<N>::kSides, Eigen::RowMajor>& x) {
+  for (int i = 0; i < N; ++i) {
+    Eigen::Array<double, 1, BlockFactor<N>::kSides> sum = block(i, 0) * x.row(0).array();
+    for (int k = 1; k < N; ++k) sum += block(i, k) * x.row(k).array();
+    from.row(i).array() -= sum;
   }
 }
 
-template <class M, class X>
+template <int N, class M, class X>
 X product(const M& block, const X& x) {
   X negative = X::Zero();
-  subtract(negative, block, x);
+  subtract<N>(negative, block, x);
   return -negative;
+}
+
+SubtractProducts<3> kernelOf(const BlockKernels& of, const PaddedBlock<3>*) { return of.three; }
+SubtractProducts<6> kernelOf(const BlockKernels& of, const PaddedBlock<6>*) { return of.six; }
+
+// What the processor has.
+template <int N>
+SubtractProducts<N> kernel() {
+  static const bool isWide = __builtin_cpu_supports("avx2");
+  constexpr const PaddedBlock<N>* kWhich = nullptr;
+  return kernelOf(isWide ? kBlockKernelsAvx2 : kBlockKernelsSse2, kWhich);
 }
 
 }  // namespace
 
-void BlockFactor::layOut(std::span<const std::array<int, 2>> entries) {
+template <int N>
+void BlockFactor<N>::layOut(std::span<const std::array<int, 2>> entries) {
   pattern_.layOut(entries);
   isTurned_.clear();
   for (const auto& [row, column] : entries) {
@@ -61,61 +82,83 @@ void BlockFactor::layOut(std::span<const std::array<int, 2>> entries) {
   solved_.resize(size());
 }
 
-void BlockFactor::begin() {
-  std::fill(values_.begin(), values_.end(), Mat3::Zero());
+template <int N>
+void BlockFactor<N>::begin() {
+  std::fill(values_.begin(), values_.end(), PaddedBlock<N>{});
   next_ = 0;
 }
 
-void BlockFactor::give(const Mat3& block) {
-  Mat3& value = values_[pattern_.slotOf(next_)];
-  if (isTurned_[next_++]) {
-    value += block.transpose();
+template <int N>
+void BlockFactor<N>::give(const Matrix& block) {
+  const std::size_t entry = next_++;
+  if (isTurned(entry)) {
+    value(entry).matrix() += block.transpose();
   } else {
-    value += block;
+    value(entry).matrix() += block;
   }
 }
 
-void BlockFactor::factorize() {
-  static const bool isWide = __builtin_cpu_supports("avx2");
-  const SubtractProducts subtractProducts = isWide ? kSubtractProductsAvx2 : kSubtractProductsSse2;
+template <int N>
+void BlockFactor<N>::takeKept() {
+  std::copy(kept_.begin(), kept_.end(), values_.begin());
+}
+
+template <int N>
+void BlockFactor<N>::factorize() {
+  const SubtractProducts<N> subtractProducts = kernel<N>();
+  const int first = 0;
   pattern_.beginFilling();
+  PaddedBlock<N> block;
   for (int k = 0; k < size(); ++k) {
-    pattern_.forEachAbove(k, [&](int row, int slot) { row_[row].matrix() += values_[slot]; });
-    Mat3 own = row_[k].matrix();
-    row_[k] = {};
+    pattern_.forEachAbove(k, [&](int row, int slot) {
+      for (int e = 0; e < PaddedBlock<N>::kSize; ++e) row_[row].of[e] += values_[slot].of[e];
+    });
     for (const int i : pattern_.reach(k)) {
-      PaddedBlock block;
-      block.matrix().noalias() = inverse_[i].lazyProduct(row_[i].matrix());
-      row_[i] = {};
       const int start = pattern_.start(i), count = pattern_.end(i) - start;
+      block = {};
+      subtractProducts(&block, &inverse_[i], &first, 1, row_[i]);
+      row_[i] = {};
+      for (double& entry : block.of) entry = -entry;
+      PaddedBlock<N>& lower = lower_[pattern_.append(i, k)];
+      lower.matrix() = block.matrix().transpose();
       subtractProducts(row_.data(), lower_.data() + start, pattern_.rowsFrom(start), count, block);
-      own.noalias() -= block.matrix().transpose().lazyProduct(block.matrix());
-      lower_[pattern_.append(i, k)].matrix() = block.matrix().transpose();
+      subtractProducts(&row_[k], &lower, &first, 1, block);
     }
-    inverse_[k] = inverseOfLower(own);
+    invertLower(row_[k], inverse_[k]);
+    row_[k] = {};
   }
 }
 
+template <int N>
 template <class X>
-void BlockFactor::substitute(std::span<X> x, std::vector<X>& solved) const {
+void BlockFactor<N>::substitute(std::span<X> x, std::vector<X>& solved) const {
   solved.resize(size());
   for (int i = 0; i < size(); ++i) solved[pattern_.placeOf(i)] = x[i];
   for (int k = 0; k < size(); ++k) {
-    solved[k] = product(inverse_[k], solved[k]);
+    solved[k] = product<N>(inverse_[k].matrix(), solved[k]);
     for (int p = pattern_.start(k); p < pattern_.end(k); ++p) {
-      subtract(solved[pattern_.rowAt(p)], lower_[p].matrix(), solved[k]);
+      subtract<N>(solved[pattern_.rowAt(p)], lower_[p].matrix(), solved[k]);
     }
   }
   for (int k = size(); k-- > 0;) {
     for (int p = pattern_.start(k); p < pattern_.end(k); ++p) {
-      subtract(solved[k], lower_[p].matrix().transpose(), solved[pattern_.rowAt(p)]);
+      subtract<N>(solved[k], lower_[p].matrix().transpose(), solved[pattern_.rowAt(p)]);
     }
-    solved[k] = product(inverse_[k].transpose(), solved[k]);
+    solved[k] = product<N>(inverse_[k].matrix().transpose(), solved[k]);
   }
   for (int i = 0; i < size(); ++i) x[i] = solved[pattern_.placeOf(i)];
 }
 
-void BlockFactor::solve(std::span<Vec3> x) { substitute(x, solved_); }
-void BlockFactor::solve(std::span<Sides> x) { substitute(x, solvedSides_); }
+template <int N>
+void BlockFactor<N>::solve(std::span<Vector> x) {
+  substitute(x, solved_);
+}
+template <int N>
+void BlockFactor<N>::solve(std::span<Sides> x) {
+  substitute(x, solvedSides_);
+}
+
+template class BlockFactor<3>;
+template class BlockFactor<6>;
 
 }  // namespace physics

@@ -1,7 +1,7 @@
-// L L^T of a sparse positive definite matrix of 3 x 3 blocks whose values change often and its
-// pattern seldom: laying it out allocates, factorizing and solving do not. Blocks on the diagonal
-// are taken apart as well, and not inverted: where what holds is 1e7 times as stiff as the mass is
-// heavy, an inverse has lost all that the mass says.
+// L L^T of a sparse positive definite matrix of blocks, 3 x 3 of points or 6 x 6 of bodies, whose
+// values change often and its pattern seldom: laying it out allocates, factorizing and solving do
+// not. Blocks on the diagonal are taken apart as well, and not inverted: where what holds is 1e7
+// times as stiff as the mass is heavy, an inverse has lost all that the mass says.
 #pragma once
 
 #include "physics/base/types.h"
@@ -9,31 +9,51 @@
 
 namespace physics {
 
-// By columns, four numbers apart: one register each.
+// By columns, which begin at whole registers of four numbers: zero beyond N.
+template <int N>
 struct alignas(32) PaddedBlock {
-  double of[12] = {};
-  auto matrix() { return Eigen::Map<Mat3, 0, Eigen::OuterStride<4>>(of); }
-  auto matrix() const { return Eigen::Map<const Mat3, 0, Eigen::OuterStride<4>>(of); }
+  static constexpr int kStride = (N + 3) / 4 * 4;
+  using Matrix = Eigen::Matrix<double, N, N>;
+  static constexpr int kSize = N * kStride;
+  double of[kSize] = {};
+  auto matrix() { return Eigen::Map<Matrix, Eigen::Aligned32, Eigen::OuterStride<kStride>>(of); }
+  auto matrix() const {
+    return Eigen::Map<const Matrix, Eigen::Aligned32, Eigen::OuterStride<kStride>>(of);
+  }
 };
 
 // row[at[p]] -= lower[p] block
-using SubtractProducts = void (*)(PaddedBlock* row, const PaddedBlock* lower, const int* at,
-                                  int count, const PaddedBlock& block);
-extern const SubtractProducts kSubtractProductsSse2, kSubtractProductsAvx2;
+template <int N>
+using SubtractProducts = void (*)(PaddedBlock<N>* row, const PaddedBlock<N>* lower, const int* at,
+                                  int count, const PaddedBlock<N>& block);
+struct BlockKernels {
+  SubtractProducts<3> three;
+  SubtractProducts<6> six;
+};
+extern const BlockKernels kBlockKernelsSse2, kBlockKernelsAvx2;
 
+template <int N>
 class BlockFactor {
  public:
+  using Matrix = Eigen::Matrix<double, N, N>;
+  using Vector = Eigen::Matrix<double, N, 1>;
+
   void layOut(std::span<const std::array<int, 2>> entries);
   int size() const { return pattern_.size(); }
   double fill() const { return pattern_.fill(); }
 
-  void begin();  // of giving values, which follow in the order of the entries
-  void give(const Mat3& block);
+  // Sums of values, by entry. Of what is turned, the block of (column, row).
+  void begin();
+  PaddedBlock<N>& value(std::size_t entry) { return values_[pattern_.slotOf(entry)]; }
+  bool isTurned(std::size_t entry) const { return isTurned_[entry]; }
+  void give(const Matrix& block);   // to the next entry in order
+  void keep() { kept_ = values_; }  // values, to go on from there again
+  void takeKept();
   void factorize();
-  void solve(std::span<Vec3> x);  // from the right-hand side, in place
+  void solve(std::span<Vector> x);  // from the right-hand side, in place
   // Of several right-hand sides, side by side: L is read once for all of them.
   static constexpr int kSides = 8;
-  using Sides = Eigen::Matrix<double, 3, kSides, Eigen::RowMajor>;  // its rows in registers
+  using Sides = Eigen::Matrix<double, N, kSides, Eigen::RowMajor>;  // its rows in registers
   void solve(std::span<Sides> x);
 
  private:
@@ -42,12 +62,13 @@ class BlockFactor {
 
   SparsePattern pattern_;
   std::vector<bool> isTurned_;  // by entry: its column is eliminated before its row
-  std::vector<Mat3> values_;    // of the upper triangle, in the order of elimination
+  // Of the upper triangle, in the order of elimination.
+  std::vector<PaddedBlock<N>> values_, kept_;
   std::size_t next_ = 0;
-  std::vector<PaddedBlock> lower_;  // of L
-  std::vector<Mat3> inverse_;       // of its diagonal, inverse: triangular
-  std::vector<PaddedBlock> row_;    // scratch: zero but within a row of factorize
-  std::vector<Vec3> solved_;
+  std::vector<PaddedBlock<N>> lower_;    // of L
+  std::vector<PaddedBlock<N>> inverse_;  // of its diagonal, inverse: triangular
+  std::vector<PaddedBlock<N>> row_;      // scratch: zero but within a row of factorize
+  std::vector<Vector> solved_;
   std::vector<Sides> solvedSides_;
 };
 

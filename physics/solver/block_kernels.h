@@ -11,27 +11,30 @@ using Column = double __attribute__((vector_size(32)));
 
 void load(const double* from, Column& to) { std::memcpy(&to, from, sizeof to); }
 
-void subtractProducts(PaddedBlock* row, const PaddedBlock* lower, const int* at, int count,
-                      const PaddedBlock& block) {
+template <int N>
+void subtractProducts(PaddedBlock<N>* row, const PaddedBlock<N>* lower, const int* at, int count,
+                      const PaddedBlock<N>& block) {
+  constexpr int kStride = PaddedBlock<N>::kStride;
   for (int p = 0; p < count; ++p) {
-    const double* l = lower[p].of;
-    Column first, second, third;
-    load(l, first);
-    load(l + 4, second);
-    load(l + 8, third);
-    double* const to = row[at[p]].of;
-    for (int j = 0; j < 3; ++j) {
-      const double* b = block.of + 4 * j;
-      Column sum;
-      load(to + 4 * j, sum);
-      sum -= first * b[0] + second * b[1] + third * b[2];
-      std::memcpy(to + 4 * j, &sum, sizeof sum);
+    for (int part = 0; part < kStride; part += 4) {  // of the rows
+      const double* const l = lower[p].of + part;
+      Column columns[N];
+      for (int k = 0; k < N; ++k) load(l + k * kStride, columns[k]);
+      double* const to = row[at[p]].of + part;
+      for (int j = 0; j < N; ++j) {
+        const double* b = block.of + kStride * j;
+        Column product = columns[0] * b[0], sum;
+        for (int k = 1; k < N; ++k) product += columns[k] * b[k];
+        load(to + kStride * j, sum);
+        sum -= product;
+        std::memcpy(to + kStride * j, &sum, sizeof sum);
+      }
     }
   }
 }
 
 }  // namespace
 
-const SubtractProducts KERNEL = subtractProducts;
+const BlockKernels KERNELS = {subtractProducts<3>, subtractProducts<6>};
 
 }  // namespace physics

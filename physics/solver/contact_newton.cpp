@@ -11,6 +11,8 @@ namespace {
 
 // Of what its bodies resist, how far a point gives way that gives way to nothing.
 constexpr double kGives = 1e-6;
+// Loads are told in single precision, and added up: of the largest, this part is not known.
+constexpr double kTold = 1e-6;
 // Which points press changes from step to step; what does not end is not taken.
 constexpr int kMostNewtonSteps = 32, kMostSlopes = 40;
 
@@ -26,18 +28,22 @@ void forEachLane(std::span<Block> blocks, F&& f) {
   }
 }
 
-template <class C, class X>
-double rateOf(const C& c, const auto& row, const X& x) {
-  return row.n.dot(x[c.a].u - x[c.b].u) + row.wA.dot(x[c.a].turn) - row.wB.dot(x[c.b].turn);
-}
-
-template <class X>
-Vec3 rateOf(const ContactNewton::Joint& j, const X& x) {
-  return j.linearA * x[j.a].u + j.turnA * x[j.a].turn + j.linearB * x[j.b].u +
-         j.turnB * x[j.b].turn;
+Eigen::Matrix<double, 6, 1> sixOf(const Vec3& u, const Vec3& turn) {
+  Eigen::Matrix<double, 6, 1> of;
+  of << u, turn;
+  return of;
 }
 
 }  // namespace
+
+ContactNewton::Pair ContactNewton::pairOf(int slotA, int slotB) {
+  Pair pair{slotA, slotB};
+  const int a = places_[slotA], b = places_[slotB];
+  if (a < 0 || b < 0) return pair;
+  pair.entry = static_cast<int>(entries_.size());
+  entries_.push_back({std::max(a, b), std::min(a, b)});
+  return pair;
+}
 
 void ContactNewton::layOut(std::span<const ContactBlock> blocks, std::span<const LaneMass> masses) {
   places_.assign(masses.size(), -1);
@@ -48,45 +54,41 @@ void ContactNewton::layOut(std::span<const ContactBlock> blocks, std::span<const
   for (std::size_t s = 1; s < masses.size(); ++s) {
     if (!(masses[s].inverse > 0)) continue;
     inverse_[s] = masses[s].inverse;
-    const int u = places_[s] = count, turn = u + 1;
-    entries_.insert(entries_.end(), {{u, u}, {turn, u}, {turn, turn}});
-    count += 2;
+    places_[s] = count++;
+    entries_.push_back({places_[s], places_[s]});
   }
-  const auto addPair = [&](int slotA, int slotB) {
-    const int a = places_[slotA], b = places_[slotB];
-    if (a < 0 || b < 0) return;
-    const auto [low, high] = std::minmax(a, b);
-    for (const int row : {high, high + 1}) {
-      for (const int column : {low, low + 1}) entries_.push_back({row, column});
-    }
-  };
-  forEachLane(blocks,
-              [&](const ContactBlock& block, int l) { addPair(block.bodyA[l], block.bodyB[l]); });
-  for (const Joint& joint : joints) addPair(joint.a, joint.b);
+  pressed_ = {};
+  contacts_.clear();
+  joined_.clear();
+  forEachLane(blocks, [&](const ContactBlock& block, int l) {
+    contacts_.push_back(pairOf(block.bodyA[l], block.bodyB[l]));
+  });
+  for (const Joint& joint : joints) joined_.push_back(pairOf(joint.a, joint.b));
   if (entries_ != entriesBefore_) factor_.layOut(entries_);
-  own_.resize(masses.size());
   for (Motions* of : {&before_, &x_, &next_}) of->resize(masses.size());
-  solved_.resize(count);
+  for (Motions* of : {&pulls_, &solved_}) of->resize(count);
 }
+
+double ContactNewton::multiplications() const { return 216 * factor_.size() * factor_.fill(); }
 
 // lawOf(block, lane, point) of each.
 template <class LawOf>
 void ContactNewton::takeRows(std::span<ContactBlock> blocks, LawOf&& lawOf) {
-  contacts_.clear();
   rows_.clear();
+  int contact = 0;
   forEachLane(blocks, [&](ContactBlock& block, int l) {
-    contacts_.push_back({block.bodyA[l], block.bodyB[l], rows_.size(), 0});
+    const Vec3 n = laneOf(block.n, l);
     for (int i = 0; i < block.points; ++i) {
       ContactBlock::Point& p = block.point[i];
       if (!(p.inverse[l] > 0)) continue;
       const Law law = lawOf(block, l, i);
       const double before = p.lambda[l], given = law.isHard ? before / law.stiffness : 0;
-      rows_.push_back({laneOf(block.n, l), laneOf(p.wA, l), laneOf(p.wB, l), law.aim - given,
-                       law.stiffness, before, 0, &p.lambda[l], false});
+      rows_.push_back({contact, sixOf(n, laneOf(p.wA, l)).transpose(),
+                       -sixOf(n, laneOf(p.wB, l)).transpose(), law.aim - given, law.stiffness,
+                       before, 0, &p.lambda[l], false});
     }
-    contacts_.back().end = rows_.size();
+    ++contact;
   });
-  between_.resize(contacts_.size());
 }
 
 void ContactNewton::solvePositions(std::span<ContactBlock> blocks, std::span<LaneMotion> motions,
@@ -99,7 +101,7 @@ void ContactNewton::solvePositions(std::span<ContactBlock> blocks, std::span<Lan
     const double scale = of.scale[i][l], gives = std::max(1 - scale, kGives);
     return Law{of.aim[i][l] / scale, block.point[i].inverse[l] * scale / gives, scale == 1};
   });
-  solve(motions);
+  solve(motions, pressed_.inPositions);
 }
 
 void ContactNewton::solveVelocities(std::span<ContactBlock> blocks, std::span<LaneMotion> motions) {
@@ -108,38 +110,43 @@ void ContactNewton::solveVelocities(std::span<ContactBlock> blocks, std::span<La
     const ContactBlock::Point& p = block.point[i];
     return Law{p.open[l], p.inverse[l] / kGives, true};
   });
-  solve(motions);
+  solve(motions, pressed_.inVelocities);
 }
 
-void ContactNewton::push(const Contact& c, const Row& row, double lambda, Motions& x) const {
-  if (places_[c.a] >= 0) {
-    x[c.a].u += inverse_[c.a] * lambda * row.n;
-    x[c.a].turn += lambda * row.wA;
-  }
-  if (places_[c.b] >= 0) {
-    x[c.b].u -= inverse_[c.b] * lambda * row.n;
-    x[c.b].turn -= lambda * row.wB;
-  }
+// M^-1
+ContactNewton::Six ContactNewton::moved(int slot, const Six& impulse) const {
+  Six by = impulse;
+  by.head<3>() *= inverse_[slot];
+  return by;
+}
+
+void ContactNewton::push(const Pair& pair, const Row& row, double lambda, Motions& x) const {
+  if (places_[pair.a] >= 0) x[pair.a] += lambda * moved(pair.a, row.ofA.transpose());
+  if (places_[pair.b] >= 0) x[pair.b] += lambda * moved(pair.b, row.ofB.transpose());
+}
+
+double ContactNewton::rateOf(const Row& row, const Motions& x) const {
+  const Pair& pair = contacts_[row.contact];
+  return row.ofA.dot(x[pair.a]) + row.ofB.dot(x[pair.b]);
+}
+
+Vec3 ContactNewton::rateOf(const Joint& joint, const Motions& x) const {
+  return joint.ofA * x[joint.a] + joint.ofB * x[joint.b];
 }
 
 // From what bodies move by to what they do but for these loads, and from there on: aims count what
 // they move by without.
 void ContactNewton::start(std::span<const LaneMotion> motions) {
-  std::fill(before_.begin(), before_.end(), Motion{});
+  std::fill(before_.begin(), before_.end(), Six::Zero());
+  x_[0].setZero();
   for (std::size_t s = 1; s < motions.size(); ++s) {
-    x_[s] = {vectorOf(motions[s].u), vectorOf(motions[s].turn)};
+    x_[s] = sixOf(vectorOf(motions[s].u), vectorOf(motions[s].turn));
   }
-  x_[0] = {};
-  for (const Contact& c : contacts_) {
-    for (std::size_t i = c.first; i < c.end; ++i) push(c, rows_[i], rows_[i].before, before_);
-  }
-  for (const Contact& c : contacts_) {
-    for (std::size_t i = c.first; i < c.end; ++i) {
-      Row& row = rows_[i];
-      const double rate = rateOf(c, row, x_);
-      row.presses = row.before > 0 || rate + row.aim < 0;
-      row.aim += rate - rateOf(c, row, before_);
-    }
+  for (const Row& row : rows_) push(contacts_[row.contact], row, row.before, before_);
+  for (Row& row : rows_) {
+    const double rate = rateOf(row, x_);
+    row.presses = row.before > 0 || rate + row.aim < 0;
+    row.aim += rate - rateOf(row, before_);
   }
   x_ = before_;
 }
@@ -147,146 +154,83 @@ void ContactNewton::start(std::span<const LaneMotion> motions) {
 // Of what their bodies resist, joints give way by as little as contacts do.
 Mat3 ContactNewton::stiffnessOf(const Joint& j) const {
   Mat3 gives = j.alpha;
-  const double resists = inverse_[j.a] * j.linearA.squaredNorm() + j.turnA.squaredNorm() +
-                         inverse_[j.b] * j.linearB.squaredNorm() + j.turnB.squaredNorm();
-  gives.diagonal().array() += kGives * resists / 3;
+  const auto resists = [&](int slot, const Rows& of) {
+    return inverse_[slot] * of.leftCols<3>().squaredNorm() + of.rightCols<3>().squaredNorm();
+  };
+  gives.diagonal().array() += kGives * (resists(j.a, j.ofA) + resists(j.b, j.ofB)) / 3;
   for (int r = j.rows; r < 3; ++r) gives(r, r) = 1;
   return inverseOrNan<Mat3>(gives);
 }
 
-// By the rows of a joint for one of its bodies, and these times the joint's stiffness.
-ContactNewton::Share ContactNewton::shareOf(const Mat3& linear, const Mat3& turn,
-                                            const Mat3& kLinear, const Mat3& kTurn,
-                                            const Vec3& start) {
-  return {linear.transpose() * kLinear, turn.transpose() * kLinear, turn.transpose() * kTurn,
-          kLinear.transpose() * start, kTurn.transpose() * start};
+// J^T k of a row or a joint, whose J is by bodies.
+template <class J, class K>
+void ContactNewton::add(const Pair& pair, const J& ofA, const J& ofB, const K& kA, const K& kB) {
+  const auto addTo = [&](int entry, const J& left, const K& right) {
+    factor_.value(entry).matrix().noalias() += left.transpose().lazyProduct(right);
+  };
+  const int a = places_[pair.a], b = places_[pair.b];
+  if (a >= 0) addTo(a, ofA, kA);
+  if (b >= 0) addTo(b, ofB, kB);
+  if (pair.entry < 0) return;
+  // A block is its row's and its column's, the later of the two and the earlier, or turned.
+  if ((a > b) != factor_.isTurned(pair.entry)) {
+    addTo(pair.entry, ofA, kB);
+  } else {
+    addTo(pair.entry, ofB, kA);
+  }
 }
 
-// What is the same in all steps of Newton's.
+// What is the same in all steps of Newton's: masses and joints, in the factor's values.
 void ContactNewton::holdJoints() {
   held_.resize(joints.size());
+  factor_.begin();
+  std::fill(pulls_.begin(), pulls_.end(), Six::Zero());
+  for (std::size_t s = 1; s < places_.size(); ++s) {
+    if (places_[s] < 0) continue;
+    auto own = factor_.value(places_[s]).matrix();
+    own.diagonal().head<3>().array() += 1 / inverse_[s];
+    own.diagonal().tail<3>().array() += 1;
+  }
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const Joint& j = joints[k];
     Held& held = held_[k];
-    held.stiffness = j.rows > 0 ? stiffnessOf(j) : Mat3::Zero().eval();
-    held.start = rateOf(j, before_);
-    const Mat3 kLinearOfA = held.stiffness * j.linearA, kTurnOfA = held.stiffness * j.turnA;
-    const Mat3 kLinearOfB = held.stiffness * j.linearB, kTurnOfB = held.stiffness * j.turnB;
-    held.a = shareOf(j.linearA, j.turnA, kLinearOfA, kTurnOfA, held.start);
-    held.b = shareOf(j.linearB, j.turnB, kLinearOfB, kTurnOfB, held.start);
-    held.between.u.noalias() = j.linearA.transpose() * kLinearOfB;
-    held.between.uTurn.noalias() = j.linearA.transpose() * kTurnOfB;
-    held.between.turnU.noalias() = j.turnA.transpose() * kLinearOfB;
-    held.between.turn.noalias() = j.turnA.transpose() * kTurnOfB;
+    held = {j.rows > 0 ? stiffnessOf(j) : Mat3::Zero().eval(), rateOf(j, before_)};
+    const Rows kA = held.stiffness * j.ofA, kB = held.stiffness * j.ofB;
+    add(joined_[k], j.ofA, j.ofB, kA, kB);
+    if (const int a = places_[j.a]; a >= 0) pulls_[a].noalias() += kA.transpose() * held.start;
+    if (const int b = places_[j.b]; b >= 0) pulls_[b].noalias() += kB.transpose() * held.start;
   }
+  factor_.keep();
 }
 
-// What presses at x. True: the same as before.
-bool ContactNewton::markPressing() {
-  bool same = true;
-  for (const Contact& c : contacts_) {
-    for (std::size_t i = c.first; i < c.end; ++i) {
-      const bool presses = rateOf(c, rows_[i], x_) + rows_[i].aim < 0;
-      same = same && presses == rows_[i].presses;
-      rows_[i].presses = presses;
-    }
+// What presses at x. True: the same as before, but for what carries too little to be told.
+bool ContactNewton::isMarked(const Motions& x) {
+  double most = 0, changed = 0;
+  for (Row& row : rows_) {
+    const double load = -row.stiffness * (rateOf(row, x) + row.aim);
+    most = std::max(most, load);
+    if ((load > 0) != row.presses) changed = std::max(changed, std::abs(load));
+    row.presses = load > 0;
   }
-  return same;
-}
-
-// Sums over the points of a contact, which have one normal.
-void ContactNewton::addContact(const Contact& c, Block& between) {
-  double k = 0, aim = 0;
-  Vec3 wA = Vec3::Zero(), wB = wA, aimA = wA, aimB = wA;
-  Mat3 turnA = Mat3::Zero(), turnB = turnA;
-  between.turn.setZero();
-  for (std::size_t i = c.first; i < c.end; ++i) {
-    const Row& row = rows_[i];
-    if (!row.presses) continue;
-    const Vec3 kA = row.stiffness * row.wA, kB = row.stiffness * row.wB;
-    k += row.stiffness;
-    aim += row.stiffness * row.aim;
-    wA += kA;
-    wB += kB;
-    aimA += row.aim * kA;
-    aimB += row.aim * kB;
-    turnA.noalias() += kA * row.wA.transpose();
-    turnB.noalias() += kB * row.wB.transpose();
-    between.turn.noalias() -= kA * row.wB.transpose();
-  }
-  const Vec3 n = c.first < c.end ? rows_[c.first].n : Vec3::Zero();
-  const Mat3 alongNormal = k * n * n.transpose();
-  between.u = -alongNormal;
-  between.uTurn.noalias() = -n * wB.transpose();
-  between.turnU.noalias() = -wA * n.transpose();
-  const auto addOwn = [&](int slot, const Vec3& w, const Mat3& turn, double sign,
-                          const Vec3& aims) {
-    const int place = places_[slot];
-    if (place < 0) return;
-    own_[slot].u += alongNormal;
-    own_[slot].turnU.noalias() += w * n.transpose();
-    own_[slot].turn += turn;
-    solved_[place] -= sign * aim * n;
-    solved_[place + 1] -= sign * aims;
-  };
-  addOwn(c.a, wA, turnA, 1, aimA);
-  addOwn(c.b, wB, turnB, -1, aimB);
-}
-
-void ContactNewton::addShare(int slot, const Share& share) {
-  const int place = places_[slot];
-  if (place < 0) return;
-  own_[slot].u += share.u;
-  own_[slot].turnU += share.turnU;
-  own_[slot].turn += share.turn;
-  solved_[place] += share.pull;
-  solved_[place + 1] += share.pullTurn;
-}
-
-void ContactNewton::giveBetween(int slotA, int slotB, const Block& of) {
-  const int a = places_[slotA], b = places_[slotB];
-  if (a < 0 || b < 0) return;
-  const bool isTurned = a < b;
-  factor_.give(of.u);
-  factor_.give(isTurned ? of.turnU.transpose() : of.uTurn);
-  factor_.give(isTurned ? of.uTurn.transpose() : of.turnU);
-  factor_.give(isTurned ? of.turn.transpose() : of.turn);
-}
-
-// In the order of the entries.
-void ContactNewton::giveMatrix() {
-  factor_.begin();
-  for (std::size_t s = 1; s < own_.size(); ++s) {
-    if (places_[s] < 0) continue;
-    factor_.give(own_[s].u);
-    factor_.give(own_[s].turnU);
-    factor_.give(own_[s].turn);
-  }
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    giveBetween(contacts_[k].a, contacts_[k].b, between_[k]);
-  }
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    giveBetween(joints[k].a, joints[k].b, held_[k].between);
-  }
+  return changed <= kTold * most;
 }
 
 // Where x were least if what presses went on to, and nothing else.
 void ContactNewton::minimize(Motions& x) {
-  const Mat3 zero = Mat3::Zero(), one = Mat3::Identity();
-  std::fill(solved_.begin(), solved_.end(), Vec3::Zero());
-  for (std::size_t s = 1; s < own_.size(); ++s) {
-    if (places_[s] >= 0) own_[s] = {one / inverse_[s], zero, zero, one};
+  factor_.takeKept();
+  solved_ = pulls_;
+  for (const Row& row : rows_) {
+    if (!row.presses) continue;
+    const Pair& pair = contacts_[row.contact];
+    const RowSix kA = row.stiffness * row.ofA, kB = row.stiffness * row.ofB;
+    add(pair, row.ofA, row.ofB, kA, kB);
+    if (const int a = places_[pair.a]; a >= 0) solved_[a] -= row.aim * kA.transpose();
+    if (const int b = places_[pair.b]; b >= 0) solved_[b] -= row.aim * kB.transpose();
   }
-  for (std::size_t k = 0; k < contacts_.size(); ++k) addContact(contacts_[k], between_[k]);
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    addShare(joints[k].a, held_[k].a);
-    addShare(joints[k].b, held_[k].b);
-  }
-  giveMatrix();
   factor_.factorize();
-  factor_.solve(solved_);
+  factor_.solve(std::span(solved_));
   for (std::size_t s = 1; s < x.size(); ++s) {
-    if (const int place = places_[s]; place >= 0) x[s] = {solved_[place], solved_[place + 1]};
+    if (places_[s] >= 0) x[s] = solved_[places_[s]];
   }
 }
 
@@ -296,9 +240,11 @@ double ContactNewton::findLeast() {
   double slope0 = 0, rise = 0;
   for (std::size_t s = 1; s < x_.size(); ++s) {
     if (places_[s] < 0) continue;
-    const Vec3 u = next_[s].u - x_[s].u, turn = next_[s].turn - x_[s].turn;
-    slope0 += x_[s].u.dot(u) / inverse_[s] + x_[s].turn.dot(turn);
-    rise += u.squaredNorm() / inverse_[s] + turn.squaredNorm();
+    Six pull = next_[s] - x_[s];
+    const Six way = pull;
+    pull.head<3>() /= inverse_[s];
+    slope0 += x_[s].dot(pull);
+    rise += way.dot(pull);
   }
   for (std::size_t k = 0; k < joints.size(); ++k) {
     const Vec3 from = rateOf(joints[k], x_), change = rateOf(joints[k], next_) - from;
@@ -307,12 +253,9 @@ double ContactNewton::findLeast() {
     rise += pull.dot(change);
   }
   along_.clear();
-  for (const Contact& c : contacts_) {
-    for (std::size_t i = c.first; i < c.end; ++i) {
-      const double from = rateOf(c, rows_[i], x_) + rows_[i].aim;
-      along_.push_back(
-          {from, rateOf(c, rows_[i], next_) + rows_[i].aim - from, rows_[i].stiffness});
-    }
+  for (const Row& row : rows_) {
+    const double from = rateOf(row, x_) + row.aim;
+    along_.push_back({from, rateOf(row, next_) + row.aim - from, row.stiffness});
   }
   double low = 0, high = 1, t = 1;
   for (int k = 0; k < kMostSlopes; ++k) {
@@ -332,57 +275,76 @@ double ContactNewton::findLeast() {
   return t;
 }
 
-// A step from x, as far as it goes down.
-void ContactNewton::descend() {
-  next_ = x_;
-  minimize(next_);
-  const double t = findLeast();
-  for (std::size_t s = 1; s < x_.size(); ++s) {
-    x_[s].u += t * (next_[s].u - x_[s].u);
-    x_[s].turn += t * (next_[s].turn - x_[s].turn);
-  }
-}
-
 // By how much f of the sweeps, and what springs hold, is less for x and its loads than for those of
 // before.
 double ContactNewton::gainOf(const Motions& x) const {
   double rise = 0;
-  for (const Contact& c : contacts_) {
-    for (std::size_t i = c.first; i < c.end; ++i) {
-      const Row& row = rows_[i];
-      const double more = row.lambda - row.before, from = rateOf(c, row, before_);
-      rise += more * (row.aim + 0.5 * (from + rateOf(c, row, x)) +
-                      0.5 * (row.lambda + row.before) / row.stiffness);
-    }
+  for (const Row& row : rows_) {
+    const double more = row.lambda - row.before, from = rateOf(row, before_);
+    rise += more * (row.aim + 0.5 * (from + rateOf(row, x)) +
+                    0.5 * (row.lambda + row.before) / row.stiffness);
   }
   return -rise;
 }
 
-// Loads that do not go down are not taken.
-void ContactNewton::solve(std::span<LaneMotion> motions) {
-  start(motions);
-  holdJoints();
-  bool ends = false;
-  for (int k = 0; k < kMostNewtonSteps && !ends; ++k) {
-    descend();
-    ends = markPressing();
+// What is least.
+double ContactNewton::valueOf(const Motions& x) const {
+  double sum = 0;
+  for (std::size_t s = 1; s < x.size(); ++s) {
+    if (places_[s] < 0) continue;
+    sum += x[s].head<3>().squaredNorm() / inverse_[s] + x[s].tail<3>().squaredNorm();
   }
-  std::swap(x_, next_);
-  std::fill(x_.begin(), x_.end(), Motion{});
-  for (const Contact& c : contacts_) {
-    for (std::size_t i = c.first; i < c.end; ++i) {
-      Row& row = rows_[i];
-      row.lambda = row.stiffness * std::max(-(rateOf(c, row, next_) + row.aim), 0.0);
-      push(c, row, row.lambda, x_);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const Vec3 open = rateOf(joints[k], x) - held_[k].start;
+    sum += open.dot(held_[k].stiffness * open);
+  }
+  for (const Row& row : rows_) {
+    const double depth = std::min(rateOf(row, x) + row.aim, 0.0);
+    sum += row.stiffness * depth * depth;
+  }
+  return 0.5 * sum;
+}
+
+// From what presses now to next_. True: where the same points press, and it is least.
+bool ContactNewton::descend() {
+  for (int k = 0; k < kMostNewtonSteps; ++k) {
+    next_ = x_;
+    minimize(next_);
+    if (isMarked(next_)) return true;
+    if (valueOf(next_) < valueOf(x_)) {
+      std::swap(x_, next_);
+      continue;
     }
+    const double t = findLeast();
+    for (std::size_t s = 1; s < x_.size(); ++s) x_[s] += t * (next_[s] - x_[s]);
+    isMarked(x_);
+  }
+  next_ = x_;
+  return false;
+}
+
+// Loads that do not go down are not taken.
+void ContactNewton::solve(std::span<LaneMotion> motions, std::vector<char>& pressed) {
+  start(motions);
+  if (pressed.size() == rows_.size()) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].presses = pressed[k] != 0;
+  }
+  holdJoints();
+  const bool ends = descend();
+  pressed.clear();
+  for (const Row& row : rows_) pressed.push_back(row.presses);
+  std::fill(x_.begin(), x_.end(), Six::Zero());
+  for (Row& row : rows_) {
+    row.lambda = row.stiffness * std::max(-(rateOf(row, next_) + row.aim), 0.0);
+    push(contacts_[row.contact], row, row.lambda, x_);
   }
   if (!joints.empty() && !ends) return;
   if (!(gainOf(joints.empty() ? x_ : next_) > 0)) return;
   for (const Row& row : rows_) *row.stored = static_cast<float>(row.lambda);
   for (std::size_t s = 1; s < motions.size(); ++s) {
     for (int k = 0; k < 3; ++k) {
-      motions[s].u[k] += static_cast<float>(x_[s].u[k] - before_[s].u[k]);
-      motions[s].turn[k] += static_cast<float>(x_[s].turn[k] - before_[s].turn[k]);
+      motions[s].u[k] += static_cast<float>(x_[s][k] - before_[s][k]);
+      motions[s].turn[k] += static_cast<float>(x_[s][3 + k] - before_[s][3 + k]);
     }
   }
 }

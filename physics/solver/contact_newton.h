@@ -22,17 +22,21 @@ namespace physics {
 
 class ContactNewton {
  public:
+  using Six = Eigen::Matrix<double, 6, 1>;  // u, and turns in the units of the lanes
+  using Rows = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
+  using RowSix = Eigen::Matrix<double, 1, 6>;
   // A row of joints, by slots, 0: what does not move. It stays as far open as it is, but for what
   // gives way by alpha; no rows: it is not at work.
   struct Joint {
     int a = 0, b = 0, rows = 0;
-    Mat3 linearA, linearB, turnA, turnB, alpha;
+    Rows ofA, ofB;
+    Mat3 alpha;
   };
   std::vector<Joint> joints;
 
-  // Of which bodies touch or have joints. Allocates, as long as there are more than before.
+  // Of which bodies touch or have joints. Allocates, where these are others than before.
   void layOut(std::span<const ContactBlock> blocks, std::span<const LaneMass> masses);
-  double productCount() const { return factor_.size() * factor_.fill(); }  // of a factor's blocks
+  double multiplications() const;  // of a factor, about
 
   // From the loads that blocks and motions have to those of a stage; friction stays as it is, and
   // bodies do not move by what joints make of it: these are to follow.
@@ -41,74 +45,64 @@ class ContactNewton {
   void solveVelocities(std::span<ContactBlock> blocks, std::span<LaneMotion> motions);
 
  private:
-  struct Motion {  // turns in the units of the lanes
-    Vec3 u = Vec3::Zero(), turn = Vec3::Zero();
-  };
-  using Motions = std::vector<Motion>;  // by slot
+  using Motions = std::vector<Six>;  // by slot
   struct Law {
     double aim, stiffness;
     bool isHard;  // its loads go on from those of before
   };
-  struct Contact {
-    int a, b;                // slots
-    std::size_t first, end;  // rows
+  struct Pair {  // of bodies, by slots; its block of the matrix, -1: one of them is given
+    int a = 0, b = 0, entry = -1;
   };
-  struct Row {  // a point
-    Vec3 n, wA, wB;
+  struct Row {  // a point of a contact: J of both
+    int contact;
+    RowSix ofA, ofB;
     double aim, stiffness;
     double before, lambda;
     float* stored;
     bool presses;
   };
-  struct Block {  // of a body and itself or another: of u and turns
-    Mat3 u, uTurn, turnU, turn;
-  };
-
   struct Along {  // of a row, on the way of a step
     double from, change, stiffness;
   };
-  struct Share {  // of a joint in the matrix and the right-hand side of one of its bodies
-    Mat3 u, turnU, turn;
-    Vec3 pull, pullTurn;
-  };
-  struct Held {  // of a joint: the inverse of alpha and a little, J u at the start; what follows
+  struct Held {  // of a joint: the inverse of alpha and a little, J u at the start
     Mat3 stiffness;
     Vec3 start;
-    Share a, b;
-    Block between;
   };
 
+  Pair pairOf(int a, int b);
   template <class LawOf>
   void takeRows(std::span<ContactBlock> blocks, LawOf&& lawOf);
-  void solve(std::span<LaneMotion> motions);
+  void solve(std::span<LaneMotion> motions, std::vector<char>& pressed);
   void start(std::span<const LaneMotion> motions);
-  bool markPressing();
-  void descend();
+  bool isMarked(const Motions& x);
+  double valueOf(const Motions& x) const;
   double findLeast();
   void minimize(Motions& x);
-  void addContact(const Contact& c, Block& between);
+  bool descend();
   Mat3 stiffnessOf(const Joint& joint) const;
-  static Share shareOf(const Mat3& linear, const Mat3& turn, const Mat3& kLinear, const Mat3& kTurn,
-                       const Vec3& start);
   void holdJoints();
-  void addShare(int slot, const Share& share);
-  void giveBetween(int a, int b, const Block& of);
+  template <class J, class K>
+  void add(const Pair& pair, const J& ofA, const J& ofB, const K& kA, const K& kB);
   double gainOf(const Motions& x) const;
-  void giveMatrix();
-  void push(const Contact& c, const Row& row, double lambda, Motions& x) const;
+  Six moved(int slot, const Six& impulse) const;
+  void push(const Pair& pair, const Row& row, double lambda, Motions& x) const;
+  double rateOf(const Row& row, const Motions& x) const;
+  Vec3 rateOf(const Joint& joint, const Motions& x) const;
 
-  std::vector<int> places_;      // by slot: of its u in the matrix, its turn follows; -1: given
-  std::vector<double> inverse_;  // by slot: 1/m
+  std::vector<int> places_;                                  // by slot: in the matrix; -1: given
+  std::vector<double> inverse_;                              // by slot: 1/m
   std::vector<std::array<int, 2>> entries_, entriesBefore_;  // of the factor, as it is laid out
-  BlockFactor factor_;
-  std::vector<Contact> contacts_;
+  BlockFactor<6> factor_;
+  std::vector<Pair> contacts_, joined_;  // as blocks and joints have them
   std::vector<Row> rows_;
   std::vector<PositionAims> aims_;
-  std::vector<Block> own_, between_;  // by slot, by contact
-  Motions before_, x_, next_;         // but for what moves without these loads
-  std::vector<Vec3> solved_;
+  Motions before_, x_, next_;  // but for what moves without these loads
+  Motions pulls_, solved_;     // by place: of joints, on the right-hand side; and all of it
   std::vector<Along> along_;
   std::vector<Held> held_;
+  struct {  // by row, where the last solve ended: the next one in a step begins there
+    std::vector<char> inPositions, inVelocities;
+  } pressed_;
 };
 
 }  // namespace physics

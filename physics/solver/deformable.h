@@ -93,7 +93,7 @@ struct PointFactor {
     double next = 0;                // change of lambda
     bool held = true;               // slack
   };
-  BlockFactor factor;
+  BlockFactor<3> factor;
   std::vector<Row> rows;
   std::vector<Length> lengths;
   std::vector<Pressed> pressed;
@@ -101,7 +101,7 @@ struct PointFactor {
   std::vector<Mat3> massive;  // M, by place
   std::vector<Vec3> change;   // d, by place
   std::vector<Vec3> from;     // by place: u that K turns from
-  std::vector<BlockFactor::Sides> sides;
+  std::vector<BlockFactor<3>::Sides> sides;
   bool stale = true;
 };
 

@@ -93,7 +93,7 @@ double Deformable::changeAlong(const SweptRow<1>& swept, const PointFactor::Leng
 // What the factor answers to J^T of lengths, several at a time.
 void Deformable::askFactor(std::span<const FreeLength> lengths) {
   PointFactor& f = *points_;
-  f.sides.assign(f.change.size(), BlockFactor::Sides::Zero());
+  f.sides.assign(f.change.size(), BlockFactor<3>::Sides::Zero());
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const auto& [swept, length, error] = lengths[i];
     for (std::size_t b = 0; b < length->place.size(); ++b) {
@@ -119,8 +119,8 @@ void Deformable::solveLengths(std::span<const Displacement> moved) {
     if (length.answer.empty()) unasked.push_back(free.back());
   });
   const std::span<const FreeLength> all(unasked);
-  for (std::size_t k = 0; k < all.size(); k += BlockFactor::kSides) {
-    askFactor(all.subspan(k, std::min<std::size_t>(BlockFactor::kSides, all.size() - k)));
+  for (std::size_t k = 0; k < all.size(); k += BlockFactor<3>::kSides) {
+    askFactor(all.subspan(k, std::min<std::size_t>(BlockFactor<3>::kSides, all.size() - k)));
   }
   if (free.empty()) return;
   const auto count = static_cast<Eigen::Index>(free.size());

@@ -166,6 +166,7 @@ void JointPack<W>::respond() {
       const auto entries = response.entriesOf(response.entries_, place);
       pushAlone(l, response.touched_[place], entries);
       eliminate(l, entries);
+      response.touched_[place].own = response.between(place, place);
     }
   }
 }
