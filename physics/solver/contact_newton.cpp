@@ -287,7 +287,7 @@ double ContactNewton::gainOf(const Motions& x) const {
   return -rise;
 }
 
-// What is least.
+// Of what is looked for the least, at x.
 double ContactNewton::valueOf(const Motions& x) const {
   double sum = 0;
   for (std::size_t s = 1; s < x.size(); ++s) {
@@ -305,7 +305,7 @@ double ContactNewton::valueOf(const Motions& x) const {
   return 0.5 * sum;
 }
 
-// From what presses now to next_. True: where the same points press, and it is least.
+// From what is thought to press, to next_. True: the same points press there, and it is least.
 bool ContactNewton::descend() {
   for (int k = 0; k < kMostNewtonSteps; ++k) {
     next_ = x_;
