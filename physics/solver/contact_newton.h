@@ -6,9 +6,9 @@
 // gives way to nothing is 1e6 times as stiff as its bodies resist, about the loads it had before,
 // so that from one solve to the next it gives way to nothing indeed. Joints are rows of the sum
 // that stay as far open as they are. That is convex, and quadratic as long as the same points
-// press: Newton's method, whose steps are cut where they do not go down, ends after a few. Its matrix
-// couples bodies that touch or are joined. After E. Todorov, "Convex and analytically-invertible dynamics
-// with contacts and constraints", ICRA 2014.
+// press: Newton's method, whose steps are cut where they do not go down, ends after a few. Its
+// matrix couples bodies that touch or are joined. After E. Todorov, "Convex and analytically-
+// invertible dynamics with contacts and constraints", ICRA 2014.
 #pragma once
 
 #include <array>
