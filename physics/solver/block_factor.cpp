@@ -55,15 +55,16 @@ X product(const M& block, const X& x) {
   return -negative;
 }
 
-SubtractProducts<3> kernelOf(const BlockKernels& of, const PaddedBlock<3>*) { return of.three; }
-SubtractProducts<6> kernelOf(const BlockKernels& of, const PaddedBlock<6>*) { return of.six; }
-
 // What the processor has.
 template <int N>
 SubtractProducts<N> kernel() {
   static const bool isWide = __builtin_cpu_supports("avx2");
-  constexpr const PaddedBlock<N>* kWhich = nullptr;
-  return kernelOf(isWide ? kBlockKernelsAvx2 : kBlockKernelsSse2, kWhich);
+  const BlockKernels& kernels = isWide ? kBlockKernelsAvx2 : kBlockKernelsSse2;
+  if constexpr (N == 3) {
+    return kernels.three;
+  } else {
+    return kernels.six;
+  }
 }
 
 }  // namespace

@@ -11,8 +11,6 @@ namespace {
 
 // Of what its bodies resist, how far a point gives way that gives way to nothing.
 constexpr double kGives = 1e-6;
-// Loads are told in single precision, and added up: of the largest, this part is not known.
-constexpr double kTold = 1e-6;
 // Which points press changes from step to step; what does not end is not taken.
 constexpr int kMostNewtonSteps = 32, kMostSlopes = 40;
 
@@ -57,7 +55,8 @@ void ContactNewton::layOut(std::span<const ContactBlock> blocks, std::span<const
     places_[s] = count++;
     entries_.push_back({places_[s], places_[s]});
   }
-  pressed_ = {};
+  pressed_.inPositions.clear();
+  pressed_.inVelocities.clear();
   contacts_.clear();
   joined_.clear();
   forEachLane(blocks, [&](const ContactBlock& block, int l) {
@@ -203,16 +202,15 @@ void ContactNewton::holdJoints() {
   factor_.keep();
 }
 
-// What presses at x. True: the same as before, but for what carries too little to be told.
-bool ContactNewton::isMarked(const Motions& x) {
-  double most = 0, changed = 0;
+// What presses at x. True: the same as before.
+bool ContactNewton::markPressing(const Motions& x) {
+  bool same = true;
   for (Row& row : rows_) {
-    const double load = -row.stiffness * (rateOf(row, x) + row.aim);
-    most = std::max(most, load);
-    if ((load > 0) != row.presses) changed = std::max(changed, std::abs(load));
-    row.presses = load > 0;
+    const bool presses = rateOf(row, x) + row.aim < 0;
+    same = same && presses == row.presses;
+    row.presses = presses;
   }
-  return changed <= kTold * most;
+  return same;
 }
 
 // Where x were least if what presses went on to, and nothing else.
@@ -310,14 +308,14 @@ bool ContactNewton::descend() {
   for (int k = 0; k < kMostNewtonSteps; ++k) {
     next_ = x_;
     minimize(next_);
-    if (isMarked(next_)) return true;
+    if (markPressing(next_)) return true;
     if (valueOf(next_) < valueOf(x_)) {
       std::swap(x_, next_);
       continue;
     }
     const double t = findLeast();
     for (std::size_t s = 1; s < x_.size(); ++s) x_[s] += t * (next_[s] - x_[s]);
-    isMarked(x_);
+    markPressing(x_);
   }
   next_ = x_;
   return false;

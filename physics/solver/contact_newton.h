@@ -74,7 +74,7 @@ class ContactNewton {
   void takeRows(std::span<ContactBlock> blocks, LawOf&& lawOf);
   void solve(std::span<LaneMotion> motions, std::vector<char>& pressed);
   void start(std::span<const LaneMotion> motions);
-  bool isMarked(const Motions& x);
+  bool markPressing(const Motions& x);
   double valueOf(const Motions& x) const;
   double findLeast();
   void minimize(Motions& x);
