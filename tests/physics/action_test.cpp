@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "physics/world.h"
-#include "tests/physics/kind_cases.h"
 #include "tests/physics/points.h"
+#include "tests/physics/trial.h"
 
 namespace physics::testing {
 namespace {
@@ -126,70 +126,58 @@ TEST(Erratum77, APrintedSumThatIsConstantKeepsNoMomentum) {
   EXPECT_GT(momentum[3] - momentum[0], 0.09);  // sum of P . dX
 }
 
-template <class K>
-class Noether : public ::testing::Test {};
-TYPED_TEST_SUITE(Noether, ListOf<Kinds>::Types, KindName);
+class Noether : public EveryKindTest {};
 
-template <class Item>
-double sizeOf(const Item& item, const Bodies& bodies) {
-  return rowOf(item, bodies).c.norm();
-}
-
-TYPED_TEST(Noether, ShiftingEverythingLeavesTheError) {  // (74)
-  using Item = typename TypeParam::Item;
-  if (isExternal<Item>()) GTEST_SKIP() << "a force of the surroundings";
+TEST_P(Noether, ShiftingEverythingLeavesTheError) {  // (74)
+  if (GetParam().isExternal) GTEST_SKIP() << "a force of the surroundings";
   Random random(42);
   for (int n = 0; n < 50; ++n) {
-    Bodies bodies = randomBodies(random, countOf<Item>());
-    const Item item = Case<Item>::make(random, bodies);
-    const auto before = rowOf(item, bodies);
-    if constexpr (Item::kLinear) {
-      auto sum = before.linear[0];
-      for (std::size_t b = 1; b < item.bodies.size(); ++b) sum += before.linear[b];
+    Bodies bodies = some(random);
+    const auto trial = trialOf(random, bodies);
+    const PlainRow before = trial->rowAt(bodies);
+    if (before.hasLinear) {
+      Mat3 sum = Mat3::Zero();
+      for (const Mat3& block : before.linear) sum += block;
       EXPECT_LT(sum.norm(), 1e-13 * before.linear[0].norm());
     }
     const Vec3 shift = random.inBall(3);
     for (int b = 0; b < bodies.size(); ++b) bodies.pose[b].x += shift, bodies.start[b].x += shift;
-    EXPECT_LT((rowOf(item, bodies).c - before.c).norm(), 1e-13 * (1 + before.c.norm()));
+    EXPECT_LT((trial->rowAt(bodies).c - before.c).norm(), 1e-13 * (1 + before.c.norm()));
   }
 }
 
-TYPED_TEST(Noether, TurningEverythingTurnsTheErrorWithIt) {  // (75),(79)
-  using Item = typename TypeParam::Item;
-  if (isExternal<Item>()) GTEST_SKIP() << "a force of the surroundings";
+TEST_P(Noether, TurningEverythingTurnsTheErrorWithIt) {  // (75),(79)
+  if (GetParam().isExternal) GTEST_SKIP() << "a force of the surroundings";
   Random random(43);
   for (int n = 0; n < 50; ++n) {
-    Bodies bodies = randomBodies(random, countOf<Item>());
-    const Item item = Case<Item>::make(random, bodies);
-    const double before = sizeOf(item, bodies);
+    Bodies bodies = some(random);
+    const auto trial = trialOf(random, bodies);
+    const double before = trial->rowAt(bodies).c.norm();
     const Quat turn = random.rotation(kPi);
     for (std::vector<Pose>* poses : {&bodies.pose, &bodies.start}) {
       for (Pose& pose : *poses) pose = {turn * pose.x, turn * pose.q};
     }
-    EXPECT_NEAR(sizeOf(item, bodies), before, 1e-12 * (1 + before));
+    EXPECT_NEAR(trial->rowAt(bodies).c.norm(), before, 1e-12 * (1 + before));
   }
 }
 
-TYPED_TEST(Noether, AScalarErrorTurnsNothing) {  // (76)-(78): sum of x x J + J_theta = 0
-  using Item = typename TypeParam::Item;
-  if (isExternal<Item>()) GTEST_SKIP() << "a force of the surroundings";
-  if constexpr (Item::kRows == 1) {
-    Random random(44);
-    for (int n = 0; n < 50; ++n) {
-      Bodies bodies = randomBodies(random, countOf<Item>());
-      const Item item = Case<Item>::make(random, bodies);
-      const auto row = rowOf(item, bodies);
-      Vec3 sum = Vec3::Zero();
-      for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-        if constexpr (Item::kLinear) {
-          sum += bodies.pose[item.bodies[b]].x.cross(row.linear[b].transpose());
-        }
-        if constexpr (isAngular<Item>()) sum += row.angular[b].transpose();
-      }
-      EXPECT_LT(sum.norm(), 1e-12);
+TEST_P(Noether, AScalarErrorTurnsNothing) {  // (76)-(78): sum of x x J + J_theta = 0
+  if (GetParam().isExternal) GTEST_SKIP() << "a force of the surroundings";
+  Random random(44);
+  for (int n = 0; n < 50; ++n) {
+    Bodies bodies = some(random);
+    const PlainRow row = trialOf(random, bodies)->rowAt(bodies);
+    if (row.rows > 1) GTEST_SKIP() << "an error of several rows";
+    Vec3 sum = Vec3::Zero();
+    for (int b = 0; b < bodies.size(); ++b) {
+      sum += bodies.pose[b].x.cross(row.linear[b].row(0).transpose());
+      sum += row.angular[b].row(0).transpose();
     }
+    EXPECT_LT(sum.norm(), 1e-12);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Noether, ::testing::ValuesIn(kindsOfTrials()), wordOf);
 
 }  // namespace
 }  // namespace physics::testing

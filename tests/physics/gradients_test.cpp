@@ -2,53 +2,30 @@
 #include <cmath>
 
 #include "tests/physics/kind_cases.h"
+#include "tests/physics/trial.h"
 
 namespace physics::testing {
 namespace {
 
-// Central difference of c by coordinate k of body b: 0..2 dx, 3..5 a turn q <- exp(d) q.
 template <class Item>
-auto difference(const Item& item, const Bodies& bodies, int b, int k) {
-  constexpr double kStep = 1e-5;  // truncation 1e-10 of c''', rounding 1e-11: both below 1e-7
-  Vec3 dx = Vec3::Zero(), turn = Vec3::Zero();
-  (k < 3 ? dx : turn)[k % 3] = kStep;
-  Bodies ahead = bodies, behind = bodies;
-  displace(ahead.pose[b], dx, turn);
-  displace(behind.pose[b], -dx, -turn);
-  return ((rowOf(item, ahead).c - rowOf(item, behind).c) / (2 * kStep)).eval();
+double deviationOf(const Item& item, const Bodies& bodies) {
+  return deviation([&](const Bodies& at) { return plainRowOf(item, at); }, bodies);
 }
 
-// Largest deviation of the rows from the differences, relative to the largest entry.
-template <class Item>
-double deviation(const Item& item, const Bodies& bodies) {
-  const auto row = rowOf(item, bodies);
-  double worst = 0, largest = 0;
-  for (std::size_t b = 0; b < item.bodies.size(); ++b) {
-    for (int k = 0; k < 6; ++k) {
-      const auto& block = k < 3 ? row.linear[b] : row.angular[b];
-      const auto wrong =
-          (block.col(k % 3) - difference(item, bodies, static_cast<int>(b), k)).eval();
-      worst = std::max(worst, wrong.cwiseAbs().maxCoeff());
-      largest = std::max(largest, block.col(k % 3).cwiseAbs().maxCoeff());
-    }
-  }
-  return worst / largest;
-}
+class Gradient : public EveryKindTest {};
 
-template <class K>
-class Gradient : public ::testing::Test {};
-TYPED_TEST_SUITE(Gradient, ListOf<Kinds>::Types, KindName);
-
-TYPED_TEST(Gradient, IsTheDerivativeOfTheError) {
-  using Item = typename TypeParam::Item;
+TEST_P(Gradient, IsTheDerivativeOfTheError) {
   Random random(1);
   for (int n = 0; n < 300; ++n) {
-    Bodies bodies = randomBodies(random, countOf<Item>());
-    const Item item = Case<Item>::make(random, bodies);
-    Case<Item>::toGradient(item, random, bodies);
-    ASSERT_LT(deviation(item, bodies), 1e-7) << "configuration " << n;
+    Bodies bodies = some(random);
+    const auto trial = trialOf(random, bodies);
+    trial->toGradient(random, bodies);
+    ASSERT_LT(deviation([&](const Bodies& at) { return trial->rowAt(at); }, bodies), 1e-7)
+        << "configuration " << n;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Gradient, ::testing::ValuesIn(kindsOfTrials()), wordOf);
 
 // A drive's rows are -1 and +1; c is a rotation vector, whose derivative is 1 - [theta]x/2 + ...
 // So they are the gradient on the target and leave it at first order, by half the error.
@@ -61,7 +38,7 @@ TEST(DriveGradient, IsOffByHalfTheErrorToFirstOrder) {
     Case<Drive>::toGradient(item, random, bodies);
     const double theta = 0.01;
     bodies.pose[1].q = exponential(theta * random.inBall(1).normalized()) * bodies.pose[1].q;
-    EXPECT_LT(deviation(item, bodies), 0.51 * theta);
+    EXPECT_LT(deviationOf(item, bodies), 0.51 * theta);
   }
 }
 
@@ -74,7 +51,7 @@ TEST(MotorGradient, IsOffByTheTurnAcrossItsAxisToFirstOrder) {
     bodies.pose = bodies.start;
     const Vec3 across = anyNormalTo(bodies.pose[0].q * item.axisI);
     bodies.pose[1].q = exponential(0.01 * across) * bodies.pose[1].q;
-    EXPECT_LT(deviation(item, bodies), 1.01 * 0.01 * std::sqrt(3));  // largest entry >= 1/sqrt 3
+    EXPECT_LT(deviationOf(item, bodies), 1.01 * 0.01 * std::sqrt(3));  // largest entry >= 1/sqrt 3
   }
 }
 

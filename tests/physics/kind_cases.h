@@ -181,18 +181,4 @@ struct Case<BallSocket> {
   static BallSocket swapped(BallSocket item, const Bodies& bodies);
 };
 
-// Every entry of the table of kinds, as GoogleTest wants it.
-template <class Tuple>
-struct ListOf;
-template <class... K>
-struct ListOf<std::tuple<K...>> {
-  using Types = ::testing::Types<K...>;
-};
-struct KindName {
-  template <class K>
-  static std::string GetName(int) {
-    return K::kWord;
-  }
-};
-
 }  // namespace physics::testing
