@@ -232,7 +232,7 @@ class Belt : public ::testing::TestWithParam<int> {
     const Vec3 along = to - from;
     BodyDef slat;
     slat.shape = Box{Vec3(0.9 * along.norm(), 0.04, 0.8)};
-    slat.pose = {0.5 * (from + to), Quat::FromTwoVectors(Vec3::UnitX(), along)};
+    slat.pose = {0.5 * (from + to), turnBetween(Vec3::UnitX(), along)};
     slat.mass = 0.5;
     slats.push_back(world.add(slat));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/constraints/constraint_solve.h"
+#include "physics/constraints/kinds.h"
 #include "physics/make/matter.h"
 #include "physics/motion/free_motion.h"
 
@@ -78,6 +79,21 @@ double residualOf(const C& item, const Multipliers<C>& lambda, const Bodies& bod
     return (row.c + row.alpha * lambda.total).norm();
   }
 }
+
+// Of the kinds there are these are compiled in trial.cpp, once.
+// clang-format off
+#define DBD_EVERY_KIND(f)                                                               \
+  f(Spring) f(VectorSpring) f(HardeningSpring) f(PointGravity) f(ConstantForce) f(Drag) \
+  f(PanelDrag) f(Bend) f(Drive) f(MotorTorque) f(Motor) f(Volume) f(RopeLength) f(Link) \
+  f(Distance) f(ConeLimit) f(TwistLimit) f(SlideLimit) f(Axle) f(Perpendicular)         \
+  f(OrientationLock) f(PointOnLine) f(BallSocket)
+#define DBD_VISITS(keyword, C)                                             \
+  keyword template bool visit(const C&, Multipliers<C>&, Bodies&, double); \
+  keyword template Multipliers<C> iterate(const C&, Bodies&, int, double); \
+  keyword template Evaluated<C> rowOf(const C&, const Bodies&, double);
+#define DBD_VISITS_ELSEWHERE(C) DBD_VISITS(extern, C)
+// clang-format on
+DBD_EVERY_KIND(DBD_VISITS_ELSEWHERE)
 
 // The angle between two vectors [rad], by the C library.
 double angleOf(const Vec3& a, const Vec3& b);

@@ -7,6 +7,10 @@
 #include "tests/physics/kind_cases.h"
 
 namespace physics::testing {
+
+#define DBD_VISITS_HERE(C) DBD_VISITS(, C)
+DBD_EVERY_KIND(DBD_VISITS_HERE)
+
 namespace {
 
 template <class K>

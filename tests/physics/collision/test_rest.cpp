@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "physics/base/rotation.h"
 #include "tests/physics/collision/scene_of_two.h"
 
 namespace physics {
@@ -127,7 +128,7 @@ Pose restingPose(const Resting& r) {  // the hull of the list lies with one face
   if (r.name != "HullOnPlane") return r.poseA;
   const auto& hull = *std::get<Convex>(r.a).hull;
   Pose pose;
-  pose.q = Quat::FromTwoVectors(hull.faces[0].normal, -Vec3::UnitY());
+  pose.q = turnBetween(hull.faces[0].normal, -Vec3::UnitY());
   pose.x.y() = hull.faces[0].offset;
   return pose;
 }
