@@ -236,7 +236,7 @@ void fillHud(const Survey&, Effect& e) {
 void fillOverlays(const Survey& s, Effect& e) {
   const Overlays& o = s.scene.overlays;
   e.count = o.contacts + o.impulses + o.joints + o.centresOfMass + o.arms + o.armTargets +
-            o.armTips + o.armCentres + o.vectors;
+            o.armAngles + o.armTips + o.armCentres + o.vectors;
   e.on = e.count > 0;
   e.unit = "kinds";
   e.why = or_(s.place("overlays"), "no [overlays], only with --overlays");

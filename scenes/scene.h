@@ -75,7 +75,7 @@ struct LabelDef {                            // [[label]]
 struct Overlays {  // drawn on request, off by default
   bool contacts = false, impulses = false, joints = false, centresOfMass = false;
   bool arms = false;  // all of an arm: its target, s_i to the tip, d_1j to the centres of mass
-  bool armTargets = false, armTips = false, armCentres = false;  // or one of them
+  bool armTargets = false, armAngles = false, armTips = false, armCentres = false;  // or some
   bool vectors = false;  // lever arms, axes, errors and normals with their letters
 };
 

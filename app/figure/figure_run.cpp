@@ -132,15 +132,16 @@ class RunPlayer {
   bool shows(const FigurePanel& panel) const { return panel.run == run_ || isGhostOf(panel); }
   bool isGhostOf(const FigurePanel& panel) const { return panel.ghost && *panel.ghost == run_; }
 
-  const scenes::CameraDef& cameraOf(const FigurePanel& panel) const {
-    return panel.camera ? *panel.camera : scene_.camera;
+  const scenes::CameraDef& cameraOf(const std::optional<scenes::CameraDef>& own) const {
+    return own ? *own : scene_.camera;
   }
 
   // A camera that fits what moves wants them, and so does a ground that must look the same in all.
   bool needsBounds() const {
     return std::any_of(sheet_.panels.begin(), sheet_.panels.end(), [&](const FigurePanel& panel) {
       const bool moves = panel.frames.size() > 1 || !plan_.filmTiles.empty();
-      const bool fits = cameraOf(panel).keys.empty() || scene_.camera.keys.empty();
+      const bool fits =
+          cameraOf(panel.camera).keys.empty() || cameraOf(panel.filmCamera).keys.empty();
       return panel.run == run_ && (fits || (panel.ground && moves));
     });
   }
@@ -152,18 +153,17 @@ class RunPlayer {
       if (panel.run != run_) continue;
       const auto& shown = panel.frames;
       const bool still = std::find(shown.begin(), shown.end(), simulation.frame()) != shown.end();
-      if (still) bounds_[i].include(simulation, cameraOf(panel));
-      filmBounds_[i].include(simulation, scene_.camera);
+      if (still) bounds_[i].include(simulation, cameraOf(panel.camera));
+      filmBounds_[i].include(simulation, cameraOf(panel.filmCamera));
     }
   }
 
-  // A panel's own camera frames its stills; the film has the scene's.
   render::Picture shot(const scenes::Simulation& simulation, int panelIndex, bool isStill,
                        const scenes::Rectangle& cell, double textSize) const {
     const auto index = static_cast<std::size_t>(panelIndex);
     const FigurePanel& panel = sheet_.panels[index];
     scenes::ViewOptions options = viewOptions(panel, cell, textSize);
-    if (!isStill) options.camera.reset();
+    if (!isStill) options.camera = panel.filmCamera;
     const std::string stamp =
         scenes::stampOf(panel, scene_, simulation.frame(), panel.frames.size() > 1);
     options.stampLetters = static_cast<int>(stamp.size());

@@ -110,6 +110,7 @@ Json describePicture(const render::RendererOptions& options, const render::Rende
   if (overlays.centresOfMass) shown.push_back("masses");
   if (overlays.arms) shown.push_back("arms");
   if (overlays.armTargets) shown.push_back("arm_targets");
+  if (overlays.armAngles) shown.push_back("arm_angles");
   if (overlays.armTips) shown.push_back("arm_tips");
   if (overlays.armCentres) shown.push_back("arm_centres");
   if (overlays.vectors) shown.push_back("vectors");

@@ -108,10 +108,11 @@ FigurePanel readPanel(TableReader& reader, FigureSheet& sheet) {
   const Scene& scene = sheet.runs[static_cast<size_t>(panel.run)].scene;
   readFrames(reader, scene, panel);
   if (reader.has("ghost")) panel.ghost = readRunName(reader, "ghost", sheet);
-  readTable(reader, "camera", [&](TableReader& camera) {
-    panel.camera.emplace();
-    readCamera(camera, *panel.camera);
-  });
+  const auto readOwnCamera = [&](const char* key, std::optional<CameraDef>& own) {
+    readTable(reader, key, [&](TableReader& camera) { readCamera(camera, own.emplace()); });
+  };
+  readOwnCamera("camera", panel.camera);
+  readOwnCamera("film_camera", panel.filmCamera);
   panel.overlays = scene.overlays;
   readTable(reader, "overlays",
             [&](TableReader& overlays) { readOverlays(overlays, panel.overlays); });

@@ -26,7 +26,7 @@ struct FigurePanel {  // [[panel]]: pictures of one run
   int run = 0;
   std::optional<int> ghost;  // a run that is seen through, in the same frames
   std::vector<int> frames;   // ascending in time; one tile each, or superimposed (onion skin)
-  std::optional<CameraDef> camera;
+  std::optional<CameraDef> camera, filmCamera;  // of stills and of the film, else the scene's
   Overlays overlays;
   double opacity = 1;
   bool ground = true;

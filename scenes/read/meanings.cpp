@@ -67,6 +67,7 @@ constexpr Meaning kOwn[] = {
     {"overlays.centres_of_mass", "", "of each body"},
     {"overlays.arms", "", "all of an arm"},
     {"overlays.arm_targets", "", "where its tip should be"},
+    {"overlays.arm_angles", "", "names of the angles of its joints"},
     {"overlays.arm_tips", "", "from its joints to its tip"},
     {"overlays.arm_centres", "", "from its joints to the centres of mass"},
     {"overlays.vectors", "", "lever arms, axes, errors and normals with their letters"},

@@ -190,6 +190,7 @@ void readOverlays(TableReader& reader, Overlays& overlays) {
   reader(Field{"centres_of_mass"}, overlays.centresOfMass);
   reader(Field{"arms"}, overlays.arms);
   reader(Field{"arm_targets"}, overlays.armTargets);
+  reader(Field{"arm_angles"}, overlays.armAngles);
   reader(Field{"arm_tips"}, overlays.armTips);
   reader(Field{"arm_centres"}, overlays.armCentres);
   reader(Field{"vectors"}, overlays.vectors);

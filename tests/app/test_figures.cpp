@@ -50,6 +50,24 @@ TEST_F(Figures, MakesPictureDataRecordAndPage) {
   }
 }
 
+TEST_F(Figures, FilmsHaveACameraOfTheirOwn) {
+  const auto make = [&](const std::string& eye) {
+    std::string sheet = "video = true\n" + std::string(kSheet);
+    sheet.insert(sheet.find("frames ="),
+                 "film_camera = { eye = " + eye + ", target = [0, 1, 0] }\n");
+    writeText(folder / "fall.toml", sheet);
+    const Outcome outcome = run(kMake);
+    EXPECT_EQ(outcome.code, 0) << outcome.errors;
+    return std::pair(readBytes(folder / "out" / "fall.png"),
+                     readBytes(folder / "out" / "fall" / "frames" / "00000.png"));
+  };
+  const auto [still, frame] = make("[0, 1, 5]");
+  const auto [stillAgain, farther] = make("[0, 1, 9]");
+  EXPECT_EQ(stillAgain, still);
+  EXPECT_FALSE(frame.empty());
+  EXPECT_NE(farther, frame);
+}
+
 TEST_F(Figures, AreVectorsWhereThatIsAskedFor) {
   ASSERT_EQ(run(kMake).code, 0);
   ASSERT_EQ(run(kMake + std::string("--format pdf,svg")).code, 0) << "later, too";

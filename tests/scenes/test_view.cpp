@@ -96,11 +96,17 @@ TEST(View, NamesTheVectorsOfAnArmOnRequest) {
   const std::string arm = "[[arm]]\nat = [0, 0, 0]\ncount = 2\nlength = 1\ntarget = [1, 1, 0]\n";
   ViewOptions options;
   EXPECT_TRUE(pictureOf(arm, options).labels.empty());
-  options.overlays.arms = true;
-  std::vector<std::string> texts;
-  for (const render::Label& label : pictureOf(arm, options).labels) texts.push_back(label.text);
-  EXPECT_EQ(texts,
-            (std::vector<std::string>{"d₁₁", "d₁₂", "s₁", "s₂", "θ₁", "θ₂", "δx", "target"}));
+  const auto textsOf = [&](bool Overlays::*shown) {
+    options.overlays = {};
+    options.overlays.*shown = true;
+    std::vector<std::string> texts;
+    for (const render::Label& label : pictureOf(arm, options).labels) texts.push_back(label.text);
+    return texts;
+  };
+  EXPECT_EQ(textsOf(&Overlays::arms),
+            (std::vector<std::string>{"*d*_{11}", "*d*_{12}", "*s*_{1}", "*s*_{2}", "*θ*_{1}",
+                                      "*θ*_{2}", "δ*x*", "target"}));
+  EXPECT_EQ(textsOf(&Overlays::armAngles), (std::vector<std::string>{"*θ*_{1}", "*θ*_{2}"}));
 }
 
 TEST(View, ShowsTheTitleInTheHud) {
