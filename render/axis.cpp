@@ -52,7 +52,8 @@ std::vector<Tick> linearTicks(const Scale& scale, int most) {
   return ticks;
 }
 
-// Every n-th decade has a text; where decades are few, 2...9 between them are minor ticks.
+// Every n-th decade has a text, from the end that has to have one; where decades are few, 2...9
+// between them are minor ticks.
 std::vector<Tick> logarithmicTicks(const Scale& scale, int most) {
   std::vector<Tick> ticks;
   const int first = static_cast<int>(std::ceil(std::log10(scale.low) - kSlack));
@@ -60,11 +61,20 @@ std::vector<Tick> logarithmicTicks(const Scale& scale, int most) {
   const int stride = std::max(1, (last - first + most - 1) / std::max(1, most));
   for (int decade = first - 1; decade <= last; ++decade) {
     const double power = std::pow(10.0, decade);
-    const bool labelled = decade >= first && (last - decade) % stride == 0;
+    const int from = scale.holdsLess ? first : last;
+    const bool labelled = decade >= first && (from - decade) % stride == 0;
     if (decade >= first) ticks.push_back({power, labelled ? powerOfTen(decade) : ""});
     for (int k = 2; stride == 1 && k < 10; ++k) {
       const double value = k * power;
       if (value > scale.low && value < scale.high) ticks.push_back({value, ""});
+    }
+  }
+  if (scale.holdsLess && first <= std::log10(scale.low) + kSlack) {
+    for (Tick& tick : ticks) {
+      if (!tick.text.empty()) {
+        tick.text = "≤ " + tick.text;
+        break;
+      }
     }
   }
   return ticks;

@@ -14,6 +14,7 @@ struct Tick {
 struct Scale {  // an axis that has its ends
   double low = 0, high = 1;
   bool logarithmic = false;
+  bool holdsLess = false;  // logarithmic: at its low end stands what is less, too
 
   // 0 at the low end, 1 at the high end, unclamped; `value` > 0 where logarithmic.
   double shareOf(double value) const;

@@ -34,6 +34,7 @@ Scale scaleOf(const Chart& chart, const ChartAxis& axis, int coordinate, int mos
   Scale scale = scaleOver(axis.low.value_or(low), axis.high.value_or(high), axis.logarithmic, most);
   if (axis.low) scale.low = *axis.low;
   if (axis.high) scale.high = *axis.high;
+  scale.holdsLess = axis.holdsLess;
   return scale;
 }
 

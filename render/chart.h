@@ -14,6 +14,7 @@ struct ChartAxis {
   std::string title;  // with its unit: "angle [rad]"
   bool logarithmic = false;
   std::optional<double> low, high;  // absent: as the data want
+  bool holdsLess = false;           // logarithmic: at `low` stands what is less, too
 };
 
 enum class Marker { kNone, kCircle, kSquare, kTriangle, kDiamond };

@@ -188,11 +188,14 @@ render::Chart chartOf(const FigurePlot& plot, const std::vector<Series>& series)
     const FigureCurve& curve = plot.curves[i];
     chart.curves.push_back(curveOf(curve, i, series[static_cast<size_t>(curve.run)]));
   }
-  // A value below the axis' own low end is drawn on it, so that an error of zero is seen.
+  // A value below the axis' own low end is drawn on it, so that an error of zero is seen, and the
+  // axis says so.
   if (chart.y.logarithmic && chart.y.low) {
     for (render::ChartCurve& curve : chart.curves) {
       for (Eigen::Vector2d& point : curve.points) {
-        if (point.y() >= 0 && point.y() < *chart.y.low) point.y() = *chart.y.low;
+        if (!(point.y() >= 0 && point.y() < *chart.y.low)) continue;
+        point.y() = *chart.y.low;
+        chart.y.holdsLess = true;
       }
     }
   }

@@ -54,6 +54,13 @@ TEST(Axis, ManyDecadesAreLabelledNowAndThen) {
   EXPECT_EQ(texts.size(), 6u);
 }
 
+TEST(Axis, SaysThatItsLowEndHoldsWhatIsLess) {
+  EXPECT_EQ(textsOf(ticksOf({1e-12, 0.1, true, true}, 6)),
+            (Texts{"≤ 10⁻¹²", "10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "10⁻²"}));
+  EXPECT_EQ(textsOf(ticksOf({1e-12, 0.1, true}, 6)),
+            (Texts{"10⁻¹¹", "10⁻⁹", "10⁻⁷", "10⁻⁵", "10⁻³", "10⁻¹"}));
+}
+
 TEST(Axis, FewDecadesHaveMinorTicks) { EXPECT_EQ(ticksOf({1, 100, true}, 6).size(), 3u + 2 * 8); }
 
 TEST(Axis, WithoutDataThereIsStillAnAxis) {

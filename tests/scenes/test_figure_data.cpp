@@ -116,6 +116,8 @@ TEST(FigurePlot, AnErrorOfZeroIsSeenAtTheLowEndOfALogarithmicAxis) {
   plot.curves[0].y = {"max_speed", ""};
   const render::Chart chart = chartOf(plot, {{1, 1, {{"max_speed", ""}}, {{1, 0}}}});
   EXPECT_EQ(chart.curves[0].points[1].y(), 1e-12);
+  EXPECT_TRUE(chart.y.holdsLess);
+  EXPECT_FALSE(chartOf(plot, {{1, 1, {{"max_speed", ""}}, {{1, 2}}}}).y.holdsLess);
 }
 
 FigureSheet sheetWithCells(std::vector<int> spans, int columns) {
