@@ -13,11 +13,18 @@ std::string lengthText(double metres) {
   const struct {
     const char* unit;
     double size;
-  } units[] = {{"km", 1e3}, {"m", 1}, {"mm", 1e-3}, {"um", 1e-6}, {"nm", 1e-9}};
+  } units[] = {{"km", 1e3}, {"m", 1}, {"mm", 1e-3}, {"µm", 1e-6}, {"nm", 1e-9}, {"pm", 1e-12}};
   for (const auto& [unit, size] : units) {
     if (metres >= size) return fmt::format("{:.3g} {}", metres / size, unit);
   }
   return fmt::format("{:.3g} m", metres);
+}
+
+std::string textBeyond(double value, double limit) {
+  for (int digits = 3;; ++digits) {
+    std::string text = fmt::format("{:.{}g}", value, digits);
+    if (digits == 17 || text != fmt::format("{:.{}g}", limit, digits)) return text;
+  }
 }
 
 std::string percentText(double share) { return fmt::format("{:g} %", 100 * share); }

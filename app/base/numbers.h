@@ -5,7 +5,9 @@
 
 namespace app {
 
-std::string lengthText(double metres);       // "3.2 mm"
+std::string lengthText(double metres);  // "3.2 mm"
+// A value beyond a limit, in three digits or as many as tell it from that: "1.0044" of 1.
+std::string textBeyond(double value, double limit);
 std::string percentText(double share);       // "0.1 %"
 std::string wholePercentText(double share);  // "12 %"; what rounds to nothing is "0 %"
 std::string secondsText(double seconds);     // "1.3 ms"

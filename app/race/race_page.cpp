@@ -114,16 +114,16 @@ class Panel {
     const float x = static_cast<float>(column) * 0.5F * static_cast<float>(layout_.panelWidth);
     const float y = lineBelow(1.35F * static_cast<float>(line + 1));
     write(x, y, name, u, kQuiet);
-    write(x + 4.8F * u, y, value, u, bad ? kBad : kInk);
+    write(x + (column == 0 ? 6.8F : 4.8F) * u, y, value, u, bad ? kBad : kInk);
   }
 
   void numbers(int frame, const RaceSample& sample) {
     const auto measure = [](bool there, double length, double share) {
       return there ? lengthText(length) + ", " + shareText(share) : std::string("none");
     };
-    number(0, 0, "time",
+    number(0, 0, "mean time",
            fmt::format("{:.3g} ms", recentMilliseconds(track_, frame, race_.scene.fps)), false);
-    number(0, 1, "energy", energyText(sample.energyChange),
+    number(0, 1, "energy change", energyText(sample.energyChange),
            race_.energyNote.empty() && sample.energyChange > limits_.energy);
     number(1, 0, "overlap", measure(race_.hasContacts, sample.overlap, sample.overlapShare),
            sample.overlapShare > limits_.overlap);

@@ -7,9 +7,11 @@
 #include <stdexcept>
 
 #include "app/base/interrupt.h"
+#include "app/base/numbers.h"
 #include "app/base/stopwatch.h"
 #include "app/race/race_measure.h"
 #include "physics/world/state.h"
+#include "scenes/measure/series.h"
 
 namespace app {
 
@@ -85,10 +87,13 @@ class Racer {
     const scenes::Expectation& expectation = verdict.expectation;
     if (!verdict.failure) return;
     if (track_.missed && track_.missed->frame <= verdict.failure->frame) return;
+    std::string unit = scenes::unitOf(expectation.metric);
+    if (!unit.empty()) unit = " " + unit;
     track_.missed = {
         verdict.failure->frame,
-        fmt::format("{} of {} {:.3g}, should be at {} {:.3g}", expectation.metric, expectation.body,
-                    verdict.failure->value, verdict.atMost ? "most" : "least", verdict.bound)};
+        fmt::format("{} of {} {}{}, should be at {} {:.3g}{}", expectation.metric, expectation.body,
+                    textBeyond(verdict.failure->value, verdict.bound), unit,
+                    verdict.atMost ? "most" : "least", verdict.bound, unit)};
   }
 
   Simulation shown_;

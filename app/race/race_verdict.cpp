@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/base/numbers.h"
 #include "app/race/race_table.h"
 
 namespace app {
@@ -15,17 +16,22 @@ bool isEarlier(const std::optional<RaceBreak>& a, const std::optional<RaceBreak>
   return a && (!b || a->frame < b->frame);
 }
 
+std::string shareBeyond(double share, double limit) {
+  const std::string text = shareText(share);
+  return text != shareText(limit) ? text : textBeyond(100 * share, 100 * limit) + " %";
+}
+
 }  // namespace
 
 std::string beyondLimits(const RaceSample& sample, const RaceLimits& limits, bool energyCounts) {
   if (sample.gapShare > limits.gap) {
-    return "joint gap " + shareText(sample.gapShare) + " of the smaller body";
+    return "joint gap " + shareBeyond(sample.gapShare, limits.gap) + " of the smaller body";
   }
   if (sample.overlapShare > limits.overlap) {
-    return "overlap " + shareText(sample.overlapShare) + " of the thinner body";
+    return "overlap " + shareBeyond(sample.overlapShare, limits.overlap) + " of the thinner body";
   }
   if (energyCounts && sample.energyChange > limits.energy) {
-    return "energy " + shareText(sample.energyChange) + " from nowhere";
+    return "energy " + shareBeyond(sample.energyChange, limits.energy) + " from nowhere";
   }
   return "";
 }

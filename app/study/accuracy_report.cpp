@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "app/base/machine.h"
+#include "app/base/numbers.h"
 #include "app/study/accuracy.h"
 #include "app/study/asked.h"
 #include "app/study/cheapest.h"
-#include "app/base/numbers.h"
 #include "app/study/shots.h"
 
 namespace app {
@@ -161,7 +161,7 @@ ReportTable methodTable(const CaseResults& results) {
       const Trace& best = *row.best;
       const std::string order = best.h == 0 ? "it chooses"
                                 : !row.order
-                                    ? "no range converges"
+                                    ? "too few points below 30 % of the scale"
                                     : fmt::format("{:.2f} ± {:.2f}, {} points", row.order->order,
                                                   row.order->deviation, row.order->points);
       cells.emplace_back(order, row.order ? Look::kPlain : Look::kQuiet);

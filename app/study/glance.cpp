@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "app/base/numbers.h"
 #include "app/study/accuracy.h"
 #include "app/study/asked.h"
-#include "app/base/numbers.h"
 #include "scenes/effects.h"
 
 namespace app {
@@ -116,8 +116,9 @@ std::string sentence(const SceneKind& kind, const KindCosts& costs) {
       secondsText(coarse.y), accuracyText(coarse.x), secondsText(fine.y), accuracyText(fine.x),
       costs.delivered, costs.asked);
   if (costs.peers.empty()) return text + "; no other engine is as good.";
-  return text + fmt::format("; the finest that another engine reaches is {}.",
-                            accuracyText(costs.peers.front().x));
+  return text +
+         fmt::format("; the finest that another engine delivers, within 3 times as well, is {}.",
+                     accuracyText(costs.peers.front().x));
 }
 
 void addKind(const SceneKind& kind, int marker, const KindCosts& costs, Chart& chart) {

@@ -77,6 +77,10 @@ TEST(Numbers, LengthsHaveTheUnitThatFits) {
   EXPECT_EQ("3.2 mm", app::lengthText(0.0032));
   EXPECT_EQ("1.5 km", app::lengthText(1500));
   EXPECT_EQ("0 m", app::lengthText(0));
+  EXPECT_EQ("9.6 µm", app::lengthText(9.6e-6));
+  EXPECT_EQ("3.55 pm", app::lengthText(3.55e-12));
+  EXPECT_EQ("120", app::textBeyond(120, 110));
+  EXPECT_EQ("1.004", app::textBeyond(1.0044, 1));
 }
 
 }  // namespace tests
