@@ -213,10 +213,13 @@ void fillSleep(const Survey& s, Effect& e) {
 
 void fillLocalSubsteps(const Survey& s, Effect& e) {
   const physics::Settings& settings = s.scene.settings;
-  e.leftOut = settings.localSubsteps && settings.substepCount() == 1;
+  const bool isOwn = settings.method == physics::Method::kSmallSteps &&
+                     settings.stepping == physics::Stepping::kPaper;
+  e.leftOut = settings.localSubsteps && (isOwn || settings.substepCount() == 1);
   e.on = settings.localSubsteps && !e.leftOut;
-  e.why = e.leftOut ? "one substep: no island can do with fewer"
-                    : or_(s.place("simulation.local_substeps"), "local_substeps = false");
+  e.why = !e.leftOut ? or_(s.place("simulation.local_substeps"), "local_substeps = false")
+          : isOwn    ? "by the default method islands choose without it"
+                     : "one substep: no island can do with fewer";
   e.count = s.bodies.count;
   e.unit = "bodies";
   e.without = {"simulation.local_substeps=false"};

@@ -27,6 +27,7 @@ void Pairs::archive(Archive& a) {
     const auto& [from, to] = told_[i];
     setMotion(items_[i], from.q.toRotationMatrix(), from, to);
   }
+  tree_.clear();
   for (std::size_t t = 0; t < itemOfTree_.size(); ++t) {
     tree_.add(treeBounds_[t], items_[itemOfTree_[t]].solid.kind == SolidKind::point);
   }

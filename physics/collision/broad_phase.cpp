@@ -81,7 +81,8 @@ struct BroadPhase::Impl {
   Part& partOf(const Item& item) { return item.small ? small : large; }
 };
 
-BroadPhase::BroadPhase() : impl_(std::make_unique<Impl>()) {}
+BroadPhase::BroadPhase() { clear(); }
+void BroadPhase::clear() { impl_ = std::make_unique<Impl>(); }
 BroadPhase::~BroadPhase() = default;
 
 void BroadPhase::add(const Bounds& bounds, bool small) {

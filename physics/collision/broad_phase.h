@@ -19,6 +19,7 @@ class BroadPhase {
   // Items are numbered from 0 in the order they come. Two points (`small`) are never reported
   // together.
   void add(const Bounds& bounds, bool small);
+  void clear();
 
   // Takes the new bounds of the items `moved` over.
   void update(std::span<const int> moved, std::span<const Bounds> bounds);

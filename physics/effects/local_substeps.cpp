@@ -117,11 +117,12 @@ void exchange(WorldState& w, Group& group) {
 
 }  // namespace
 
+// Islands of small steps take as many as they need without being asked.
 bool stepsLocally(const Settings& settings) {
   return settings.localSubsteps && settings.leavesOut && settings.substepCount() > 1 &&
          settings.stepping != Stepping::kStatic &&
          (settings.method == Method::kNonlinearGaussSeidel || settings.method == Method::kDirect ||
-          settings.method == Method::kSmallSteps);
+          (settings.method == Method::kSmallSteps && settings.stepping != Stepping::kPaper));
 }
 
 void joinAll(WorldState& w) {
@@ -134,7 +135,7 @@ void joinAll(WorldState& w) {
     for (const SoftTouch& touch : w.softCollider.find(w.bodies.pose, w.ahead, margin)) {
       const SoftElement& element = w.softCollider.element(touch.element);
       join(w.bodies, islands, element.from, element.to);
-      join(w.bodies, islands, element.from, touch.body);
+      join(w.bodies, islands, moverOf(w.bodies, element.from, element.to), touch.body);
     }
   }
   settle(islands, w.bodies.active);

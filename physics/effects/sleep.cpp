@@ -46,7 +46,7 @@ Islands watchedIslands(WorldState& w) {
   for (const KeptContact& c : w.small.contacts()) join(w.bodies, islands, c.a, c.b);
   for (const SoftContact& c : w.softContacts) {
     join(w.bodies, islands, c.from, c.to);
-    join(w.bodies, islands, c.from, c.body);
+    join(w.bodies, islands, moverOf(w.bodies, c.from, c.to), c.body);
   }
   settle(islands, w.bodies.active);
   return islands;
@@ -158,7 +158,9 @@ void fallAsleep(WorldState& w, StepReport& report) {
       const auto sleeps = [&](const auto& pair) { return isAsleep(w, pair); };
       carry(w.contacts.pairs, w.sleep.contacts, sleeps);
       carry(w.small.contacts(), w.small.sleeping, sleeps);
-      std::erase_if(w.softContacts, [&](auto& c) { return w.sleep.asleep[c.from] != 0; });
+      std::erase_if(w.softContacts, [&](const SoftContact& c) {
+        return w.sleep.asleep[moverOf(w.bodies, c.from, c.to)] != 0;
+      });
       listAwake(w);
     }
   }

@@ -16,6 +16,12 @@ inline bool isMovable(const Bodies& bodies, BodyId body) {
   return bodies.motion[body] != Motion::kStatic;
 }
 
+// Of two that touch, the first, or the second where the first is static: islands are told by what
+// moves.
+inline BodyId moverOf(const Bodies& bodies, BodyId a, BodyId b) {
+  return isMovable(bodies, a) ? a : b;
+}
+
 void join(const Bodies& bodies, Islands& islands, BodyId a, BodyId b);
 
 // Joins those that a contact has moved in this substep.

@@ -548,6 +548,7 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
     } else {
       for (const int k : batches[group[part]->batch].contacts) holdNoMore(contacts[k], h);
     }
+    for (const int k : batch.articulations) articulations[k].setOpened(false);
     batch.joints.finish(w.kinds, h);
     for (const int d : batch.deformables) deformables[d].finish(w.kinds, h);
   }

@@ -13,6 +13,7 @@ void SmallSteps::archive(Archive& a, Model& w) {
   std::size_t bodies = i.choices.size();
   a(knows, bodies);
   if (a.reads()) {
+    i.known = false;
     i.makeRoom(bodies);
     if (knows) i.learn(w);
   }

@@ -152,7 +152,7 @@ void SmallSteps::Impl::askSoft(const Model& w, const Batch& batch) {
   if (batch.soft.empty()) return;
   for (const BodyId i : batch.bodies) load[i] = change[i] = 0;
   for (const SoftContact& c : batch.soft) {
-    const BodyId root = islands[isMovable(b, c.from) ? c.from : c.to];
+    const BodyId root = islands[moverOf(b, c.from, c.to)];
     load[root] += c.normalTotal;
     change[root] += c.normalTotal * std::max(-gapOf(c, b.pose), 0.0) / c.radius;
   }

@@ -21,7 +21,7 @@ void SmallSteps::clear(Batch& batch) {
   batch.motions.clear();
   batch.masses.clear();
   batch.slots.clear();
-  batch.closes = false;
+  batch.isAtOnce = batch.isAgain = batch.isLost = batch.isDeep = batch.closes = false;
 }
 
 // Bodies that constraints join make an articulation; points, and what has a factor that would fill
@@ -85,7 +85,7 @@ void SmallSteps::Impl::learn(Model& w) {
 
 namespace {
 
-BodyId moverOf(const Bodies& b, const KeptContact& c) { return isMovable(b, c.a) ? c.a : c.b; }
+BodyId moverOf(const Bodies& b, const KeptContact& c) { return moverOf(b, c.a, c.b); }
 
 // The velocity with which a body meets another in the step: where nothing holds it yet it falls.
 Vec3 meetingVelocity(const Model& w, const KeptContact& c, BodyId i) {
@@ -158,7 +158,6 @@ SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, BodyId root) {
   batch.sweeps = sweeps[root];
   batch.touches = touches;
   batch.joined = joined[root];
-  batch.isAgain = false;
   batch.isAtOnce = isAtOnce;
   return batch;
 }
@@ -166,7 +165,7 @@ SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, BodyId root) {
 // The end of a point or link that moves.
 BodyId SmallSteps::Impl::softMoverOf(const Model& w, const SoftPair& pair) const {
   const SoftElement& element = w.softCollider.element(pair.element);
-  return isMovable(w.bodies, element.from) ? element.from : element.to;
+  return moverOf(w.bodies, element.from, element.to);
 }
 
 void SmallSteps::Impl::joinSoft(const Model& w, const SoftPair& pair) {
@@ -255,7 +254,7 @@ void SmallSteps::Impl::assignSoft(Model& w) {
     batches[batchOf[softMoverOf(w, pair)]].softPairs.push_back(pair);
   }
   std::erase_if(w.softContacts, [&](const SoftContact& c) {
-    const BodyId body = isMovable(w.bodies, c.from) ? c.from : c.to;
+    const BodyId body = moverOf(w.bodies, c.from, c.to);
     if (batchOf[body] >= 0) batches[batchOf[body]].soft.push_back(c);
     return true;
   });

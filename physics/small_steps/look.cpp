@@ -77,6 +77,17 @@ void SmallSteps::Impl::findSliding(Model& w) {
   if (!some) sliding.clear();
 }
 
+// Surfaces that this look has found anew: the next one tells of them as of those of before.
+void SmallSteps::Impl::renewFound(std::span<const Found> found, const Bodies& bodies) {
+  const auto isBefore = [](const KeptContact& c, std::uint64_t key) { return c.key < key; };
+  for (const Found& f : found) {
+    if (!f.isNew) continue;
+    const std::uint64_t key = f.manifold->pair;
+    const auto kept = std::lower_bound(contacts.begin(), contacts.end(), key, isBefore);
+    if (kept != contacts.end() && kept->key == key) physics::renew(*f.manifold, bodies, *kept);
+  }
+}
+
 // Contacts from the present poses to where the bodies would be at the end of the step. False: the
 // look met bodies that sleep, which are awake now.
 bool SmallSteps::Impl::lookOnce(Model& w) {
@@ -100,6 +111,7 @@ bool SmallSteps::Impl::lookOnce(Model& w) {
       for (const BodyId i : {f.manifold->a, f.manifold->b}) callAwake(w.sleep, i);
     }
     if (w.sleep.called.size() > called) {
+      renewFound(found, b);
       (*wake)();
       return false;
     }

@@ -1,4 +1,4 @@
-// The default method: the step, and how many substeps and sweeps the next one takes.
+// The default method: the step of its islands.
 #include "physics/small_steps/small_steps.h"
 
 #include <algorithm>
@@ -31,6 +31,13 @@ void SmallSteps::forget() {
   std::fill(impl_->askedSweeps.begin(), impl_->askedSweeps.end(), 1);
   std::fill(impl_->askedAtOnce.begin(), impl_->askedAtOnce.end(), 0);
   std::fill(impl_->finer.begin(), impl_->finer.end(), 0);
+  std::fill(impl_->law.begin(), impl_->law.end(), SubstepLaw{});
+  // Of what steps by an accuracy.
+  impl_->choices.clear();
+  impl_->oneRowErrs.clear();
+  impl_->missed.clear();
+  impl_->accelerated.clear();
+  impl_->makeRoom(impl_->asked.size());
 }
 
 std::size_t SmallSteps::bytes() const {

@@ -348,6 +348,7 @@ struct SmallSteps::Impl {
   void makeRoom(std::size_t bodies);
   void look(Model& w);
   bool lookOnce(Model& w);
+  void renewFound(std::span<const Found> found, const Bodies& bodies);
   bool findPushes(Model& w);
   Vec3 wayInStep(const Model& w, const KeptContact& c) const;
   double ownSide(const KeptContact& c) const;

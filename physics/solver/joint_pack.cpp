@@ -51,6 +51,7 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     tailPlaces_.resize(tail);
   }
   takePulls();
+  for (JointLanes<W>& row : rows_) std::fill(std::begin(row.left), std::end(row.left), Num<W>{});
   if (isSame) return;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     JointLanes<W>& row = rows_[i];
@@ -58,7 +59,6 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
       const JointKind& kind = of_[l]->kinds_[i];
       row.regularisation.v[l] = kind.regularisation;
       row.longest.v[l] = std::numeric_limits<double>::infinity();
-      write(row.left, l, Vec3::Zero());
       for (int k = 0; k < kJointFixed; ++k) row.fixed[k].v[l] = kind.fixed[k];
     }
   }
@@ -586,6 +586,7 @@ bool JointPack<W>::hasGap(int l, double most) const {
 // looked at: they go to where Newton's left them the least off.
 template <int W>
 void JointPack<W>::giveUp(const Num<W>& far) {
+  given_.fill(false);
   for (int l = 0; l < lanes_; ++l) {
     given_[l] = far.v[l] > 0 && !apart_[l] && hasGap(l, kClosed);
     if (!given_[l]) continue;

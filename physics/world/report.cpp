@@ -52,7 +52,7 @@ void forEachPair(const WorldState& w, F&& f) {
   for (const ContactPair& pair : w.sleep.contacts) f(pair);
   for (const auto* contacts : {&w.small.contacts(), &w.small.sleeping}) {
     for (const KeptContact& c : *contacts) {
-      f(pairOf(c, w.settings.dt / w.small.substepsOf(std::max(c.a, c.b))));
+      f(pairOf(c, w.settings.dt / w.small.substepsOf(moverOf(w.bodies, c.a, c.b))));
     }
   }
 }
@@ -146,7 +146,7 @@ std::vector<ContactReport> World::contacts() const {
   std::vector<ContactReport> reports;
   const auto& pose = impl_->bodies.pose;
   forEachPair(*impl_, [&](const ContactPair& pair) {
-    const double h = impl_->settings.dt / substepsOf(std::max(pair.a, pair.b));
+    const double h = impl_->settings.dt / substepsOf(moverOf(impl_->bodies, pair.a, pair.b));
     const Vec3 n = normalOf(pair, pose);
     for (int k = 0; k < pair.count; ++k) {
       const ContactPointState& p = pair.points[k];
@@ -158,7 +158,8 @@ std::vector<ContactReport> World::contacts() const {
   });
   for (const SoftContact& c : impl_->softContacts) {
     const Vec3 n = pose[c.body].q * c.normal;
-    const double h = impl_->settings.dt / substepsOf(c.from);
+    const int substeps = substepsOf(moverOf(impl_->bodies, c.from, c.to));
+    const double h = impl_->settings.dt / substeps;
     reports.push_back({c.from, c.body, pointOf(c, pose) - c.radius * n, n, gapOf(c, pose),
                        (c.normalTotal * n + c.frictionTotal) / h});
   }

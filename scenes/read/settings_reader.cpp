@@ -118,8 +118,8 @@ void readKeys(TableReader& reader, CameraDef& camera) {
 // An override may shorten the scene: frames past its end are an error of the file alone.
 void readGolden(TableReader& reader, const Scene& scene, GoldenDef& golden) {
   reader(Field{"frames", Unit::kNone, true, 0}, golden.frames);
-  reader(Field{"width", Unit::kNone, false, 16, 16384}, golden.width);
-  reader(Field{"height", Unit::kNone, false, 16, 16384}, golden.height);
+  reader(Field{"width", Unit::kNone, false, 16, 8192}, golden.width);
+  reader(Field{"height", Unit::kNone, false, 16, 8192}, golden.height);
   reader(Field{"hud"}, golden.hud);
   reader(Field{"state_hash"}, golden.stateHash);
   if (golden.frames.empty()) reader.failAt("frames", "expected at least one frame");

@@ -205,6 +205,11 @@ void applyOverride(Value& root, const std::string& keyAndValue) {
   const auto isSpace = [](unsigned char c) { return std::isspace(c); };
   text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), isSpace));
   const std::vector<std::string> parts = splitKey(keyAndValue.substr(0, equals), setting);
+  if (parts.front() == "include") {
+    throw InputError(setting +
+                     ": expected a value, and `include` names files that are read before "
+                     "it; a scene of your own that includes both sets it");
+  }
   if (text == "none" && removeTable(root, parts, setting)) return;
   Value* target = &root;
   std::string where;

@@ -168,6 +168,22 @@ TEST(LocalSubsteps, SwitchedOffAreSubstepsEverywhere) {
   EXPECT_EQ(stateHash(off), stateHash(all));
 }
 
+TEST(LocalSubsteps, AreWhatTheDefaultMethodDoesUnasked) {
+  Settings settings;
+  settings.gravity = Vec3(0, -9.81, 0);
+  settings.contact = ContactSettings{};
+  World off(settings);
+  settings.localSubsteps = true;
+  World on(settings);
+  for (World* world : {&off, &on}) {
+    addGround(*world);
+    addHeavyChain(*world);
+    addBoxes(*world, 3);
+    run(*world, 60);
+  }
+  EXPECT_EQ(stateHash(off), stateHash(on));
+}
+
 TEST(LocalSubsteps, GiveTheSameBytesTwice) {
   Mixed p(true, 3), q(true, 3);
   run(p.world, 90);

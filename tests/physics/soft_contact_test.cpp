@@ -173,5 +173,63 @@ TEST(SoftContact, PartsAnOverlapNoFasterThanAskedByTheDefault) {
   EXPECT_GE(scene.at(node).y(), kRadius - 1e-9);
 }
 
+// A link from a node that is held to one that lies on a block through it, or the other way round.
+struct HeldLink {
+  World world;
+  explicit HeldLink(bool heldFirst, Motion motion = Motion::kStatic) : world(settings()) {
+    BodyDef held, free, block;
+    held.pose.x = Vec3(0, 1, 0);
+    held.mass = free.mass = 0.1;
+    held.motion = Motion::kStatic;
+    free.pose.x = Vec3(0.4, 1, 0);
+    block.shape = Box{Vec3(0.1, 0.2, 8)};
+    block.pose.x = Vec3(0.3, 1 - kRadius - 0.1, 0);
+    block.motion = motion;
+    const BodyId a = world.add(held), b = world.add(free);
+    SoftSurfaceDef soft;
+    soft.radius = kRadius;
+    soft.friction = {0, 0};
+    LinkDef link;
+    link.bodies = heldFirst ? PerBody<2, BodyId>{a, b} : PerBody<2, BodyId>{b, a};
+    world.add(link);
+    soft.links.push_back({link.bodies[0], link.bodies[1]});
+    world.add(soft);
+    const BodyId under = world.add(block);
+    if (motion == Motion::kKinematic) world.setVelocity(under, {Vec3(0, 0, 0.3), Vec3::Zero()});
+  }
+  static Settings settings() {
+    Settings settings;
+    settings.gravity = Vec3(0, -9.81, 0);
+    settings.contact.emplace();
+    settings.contact->friction = {0, 0};
+    settings.sleep.emplace();
+    settings.sleep->time = 0.2;
+    settings.substeps = 4;
+    return settings;
+  }
+};
+
+TEST(SoftContact, TellsTheSameImpulseWhicheverEndOfALinkIsHeld) {
+  const auto impulseOf = [](bool heldFirst) {
+    HeldLink scene(heldFirst);
+    for (int k = 0; k < 10; ++k) scene.world.step();
+    double sum = 0;
+    for (const ContactReport& contact : scene.world.contacts()) sum += contact.impulse.norm();
+    return sum;
+  };
+  EXPECT_GT(impulseOf(false), 0);
+  EXPECT_NEAR(impulseOf(true), impulseOf(false), 1e-6 * impulseOf(false));
+}
+
+TEST(SoftContact, DoesNotSleepOnWhatMovesWhicheverEndOfALinkIsHeld) {
+  for (const bool heldFirst : {true, false}) {
+    HeldLink scene(heldFirst, Motion::kKinematic);
+    int most = 0;
+    for (int k = 0; k < 60; ++k) most = std::max(most, scene.world.step().asleep);
+    EXPECT_GT(scene.world.contactCount(), 0);
+    EXPECT_EQ(most, 0) << heldFirst;
+  }
+}
+
 }  // namespace
 }  // namespace physics::testing

@@ -11,8 +11,7 @@
 namespace physics {
 namespace {
 
-World makeBalls() {  // two that overlap by 0.1 m, on a spring and a distance
-  Settings settings;
+World makeBalls(Settings settings = {}) {  // two that overlap by 0.1 m, one of them on a spring
   settings.gravity = Vec3(0, -9.81, 0);
   settings.contact = ContactSettings{};
   World world(settings);
@@ -119,6 +118,33 @@ TEST(SavedWorld, GoesOnWhereContactsSawJoints) {
   }
 }
 
+// A joint that is open by 5 cm, and closed by no more than half a metre a second.
+World makeOpen() {
+  Settings settings;
+  settings.maxCorrectionSpeed = 0.5;
+  World world(settings);
+  BallSocketDef joint;
+  joint.bodies = {testing::addBody(world, Box{Vec3(0.2, 0.2, 0.2)}, Vec3(0, 0, 0), 1),
+                  testing::addBody(world, Box{Vec3(0.2, 0.2, 0.2)}, Vec3(1.05, 0, 0), 1)};
+  joint.anchors = {Vec3(0.5, 0, 0), Vec3(-0.5, 0, 0)};
+  world.add(joint);
+  return world;
+}
+
+TEST(SavedWorld, GoesOnWithAJointThatIsClosedSlowly) {
+  World world = makeOpen(), restored = makeOpen();
+  for (int k = 0; k < 3; ++k) world.step();
+  expectGoesOn(world, restored);
+}
+
+TEST(SavedWorld, GoesOnInAWorldThatHasStepped) {
+  World world = makeSwing(), restored = makeSwing();
+  for (int k = 0; k < 60; ++k) restored.step();
+  const State start = stateOf(makeSwing());
+  ASSERT_TRUE(world.setState(start.pose, start.velocity));
+  expectGoesOn(world, restored);
+}
+
 TEST(SavedWorld, OfOtherBodiesIsRefused) {
   World world = makeBalls(), other = makeBalls();
   other.add(BodyDef{});
@@ -136,8 +162,8 @@ TEST(SetState, MeasuresAsTheWorldThatWasSteppedThere) {
   EXPECT_NEAR(told.largestOverlap(), stepped.largestOverlap(), 1e-6);  // manifolds may be older
 }
 
-TEST(SetState, LeavesNothingOfEarlierSteps) {
-  World used = makeBalls(), fresh = makeBalls();
+void expectNothingIsLeft(const Settings& settings) {
+  World used = makeBalls(settings), fresh = makeBalls(settings);
   const State start = stateOf(used);
   for (int k = 0; k < 20; ++k) used.step();
   ASSERT_TRUE(used.setState(start.pose, start.velocity));
@@ -147,6 +173,14 @@ TEST(SetState, LeavesNothingOfEarlierSteps) {
     EXPECT_EQ(used.bodies().pose[i].x, fresh.bodies().pose[i].x);
     EXPECT_EQ(used.bodies().velocity[i].w, fresh.bodies().velocity[i].w);
   }
+}
+
+TEST(SetState, LeavesNothingOfEarlierSteps) { expectNothingIsLeft({}); }
+
+TEST(SetState, LeavesNothingOfEarlierStepsByAnAccuracy) {
+  Settings settings;
+  settings.accuracy = 1e-3;
+  expectNothingIsLeft(settings);
 }
 
 TEST(SetState, RefusesWhatIsNotFiniteAndChangesNothing) {
