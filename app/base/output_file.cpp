@@ -2,14 +2,17 @@
 #include "app/base/output_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <vector>
 
 #include "app/base/console.h"
 #include "app/commands/exit_code.h"
+#include "scenes/read/input_error.h"
 
 namespace app {
 
@@ -84,6 +87,38 @@ void OutputFile::commit() {
 void OutputFile::fail(int error) const {
   if (standardOutput_ && error == EPIPE) throw ReaderGone(std::strerror(error));
   failToWrite(path_, error);
+}
+
+namespace {
+
+bool areOne(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const auto whole = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, error), error);
+  };
+  return whole(a) == whole(b) || fs::equivalent(a, b, error);
+}
+
+}  // namespace
+
+void requireOwnFiles(std::initializer_list<NamedOutput> outputs, const std::string& read) {
+  std::vector<NamedOutput> files;
+  for (const NamedOutput& output : outputs) {
+    if (!output.file.empty() && output.file != "-") files.push_back(output);
+  }
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const auto refuse = [&](const std::string& why) {
+      throw scenes::InputError(fmt::format("{} {}: {}", files[k].option, files[k].file, why));
+    };
+    if (!read.empty() && areOne(files[k].file, read)) {
+      refuse("that is what is read, and it would be gone; name another file");
+    }
+    for (std::size_t other = 0; other < k; ++other) {
+      if (!areOne(files[k].file, files[other].file)) continue;
+      refuse(fmt::format("{} writes that file; name another", files[other].option));
+    }
+    if (files[k].isWhole && isInPlace(files[k].file)) refuse("expected a file, that is none");
+  }
 }
 
 void writeFile(const fs::path& path, std::string_view bytes) {

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,6 +33,16 @@ class OutputFile {
   bool standardOutput_ = false, renamed_ = false;
   std::optional<RemovedOnInterrupt> half_;
 };
+
+// What a command is to write, by its option; empty or "-": no file.
+struct NamedOutput {
+  const char* option;
+  std::string file;
+  bool isWhole =
+      false;  // it takes its name when it is done: what is no file, a pipe, would be gone
+};
+// None of them twice, and none that is read (empty: nothing is). Throws InputError.
+void requireOwnFiles(std::initializer_list<NamedOutput> outputs, const std::string& read);
 
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
 // The same for what is written again and again: the last but one stays beside it as spareOf(path),

@@ -22,6 +22,7 @@ ExitCode convert(const ConvertOptions& options) {
     throw scenes::InputError(
         fmt::format("convert: expected a model, .xml, .mjcf or .urdf, got {}", options.model));
   }
+  requireOwnFiles({{"--out", options.file}}, options.model);
   std::vector<std::string> settings;
   if (!options.keyframe.empty()) settings.push_back("keyframe=" + options.keyframe);
   const scenes::Scene scene = scenes::readScene(options.model, settings);

@@ -181,6 +181,11 @@ ExitCode simulate(const SimulateOptions& options) {
   }
   const ProgressMode progressMode = options.common.progressMode();
   const scenes::Scene scene = options.common.readScene();
+  requireOwnFiles({{"--trajectory", options.trajectory},
+                   {"--metrics", options.metrics},
+                   {"--motion", options.motion, true},
+                   {"--steps-chart", options.stepsChart, true}},
+                  scene.path);
   RunRecord record = makeRecord(scene);
   noteWarnings(record);
   scenes::Simulation simulation(scene);

@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "app/base/build_info.h"
 #include "app/base/console.h"
 #include "app/base/output_file.h"
 #include "scenes/measure/start_warnings.h"
+#include "scenes/read/file_text.h"
 #include "scenes/read/settings_reader.h"
 #include "scenes/read/write_scene.h"
 
@@ -160,8 +159,7 @@ std::optional<RunRecord> readRecord(const std::filesystem::path& folder) {
 }
 
 std::optional<RunRecord> readRecordFile(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  const Json json = tryParseJson(file);
+  const Json json = tryParseJson(scenes::fileText(path.string()).value_or(""));
   if (!json.is_object()) return std::nullopt;
   try {
     RunRecord record;

@@ -23,6 +23,20 @@ TEST_F(Simulate, TrajectoryHasARowPerBodyAndFrameFromTheStart) {
   }
 }
 
+TEST_F(Simulate, WritesOverNothingThatItReadsOrWrites) {
+  const std::string scene = readBytes(folder / "drop.toml");
+  for (const char* option : {"--trajectory", "--metrics", "--motion", "--steps-chart"}) {
+    const Outcome outcome = run(std::string("simulate drop.toml ") + option + " ./drop.toml");
+    EXPECT_EQ(outcome.code, 2) << option;
+    EXPECT_NE(outcome.errors.find(option), std::string::npos) << outcome.errors;
+    EXPECT_EQ(readBytes(folder / "drop.toml"), scene) << option;
+  }
+  const Outcome twice = run("simulate drop.toml --trajectory x.csv --metrics ./x.csv");
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.errors.find("--trajectory writes that file"), std::string::npos);
+  EXPECT_EQ(run("simulate drop.toml --motion /dev/null").code, 2);
+}
+
 TEST_F(Simulate, MetricsHaveARowPerFrame) {
   ASSERT_EQ(run("simulate drop.toml --metrics m.csv").code, 0);
   const std::vector<std::string> rows = lines(readBytes(folder / "m.csv"));
