@@ -139,7 +139,9 @@ double coneAngle(const Sample& s) { return largestAngle(s, physics::ConeLimitDef
 double overlap(const Sample& s) { return s.now.overlap; }
 double maxSpeed(const Sample& s) { return s.now.maxSpeed; }
 double contacts(const Sample& s) { return s.now.contacts; }
-double finite(const Sample& s) { return s.simulation.isFinite() ? 1 : 0; }
+double finite(const Sample& s) {
+  return s.simulation.isFinite() && std::isfinite(s.now.total) ? 1 : 0;
+}
 
 double armError(const Sample& s) { return largestError(s, {physics::ArmDef::kWord}); }
 
@@ -225,7 +227,8 @@ constexpr Metric kMetrics[] = {
     {"arm_effort", "kg m^2 rad^2", "the sum of 1/2 dtheta^T M dtheta over all iterations so far",
      kScene, armEffort, nullptr},
     {"contacts", "", "the contact points that carry an impulse", kScene, contacts, nullptr},
-    {"finite", "", "1 while every number is finite, else 0", kScene, finite, nullptr},
+    {"finite", "", "1 while every number and the energy are finite, else 0", kScene, finite,
+     nullptr},
 };
 
 }  // namespace

@@ -118,7 +118,11 @@ MotionBounds stageOf(const Simulation& simulation, const MotionBounds& motion,
     }
   }
   includeAnchors(simulation, camera, stage);
-  if (isEmpty(stage)) stage = {Vec3::Constant(-1), Vec3::Constant(1)};
+  if (isEmpty(stage)) stage = {Vec3::Zero(), Vec3::Zero()};
+  if (stage.low == stage.high) {  // nothing, or a point that rests
+    stage.low -= Vec3::Ones();
+    stage.high += Vec3::Ones();
+  }
   return stage;
 }
 

@@ -48,6 +48,16 @@ TEST(Metric, LooksOnlyAtItsSpan) {
 
 TEST(Metric, FiniteNeedsNoBound) { EXPECT_TRUE(verdictOnFall("metric = \"finite\"\n").holds); }
 
+TEST(Metric, FiniteIsTheEnergyToo) {
+  const Scene scene = sceneOf(
+      "duration = 1\n[[body]]\nname = \"p\"\nshape = { sphere = { radius = 1 } }\n"
+      "velocity = [1e160, 0, 0]\n[[expect]]\nmetric = \"finite\"\n");
+  const Simulation simulation(scene);
+  Checker checker(scene);
+  checker.observe(simulation);
+  EXPECT_FALSE(checker.verdicts().at(0).holds);
+}
+
 TEST(Metric, TellsValueAndBoundInItsText) {
   EXPECT_EQ(verdictOnFall("metric = \"drift\"\nbody = \"p\"\nat_most = 3\n").text,
             "drift of p 2 m <= 3 m");

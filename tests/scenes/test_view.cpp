@@ -50,6 +50,13 @@ TEST(Camera, PassesThroughItsKeys) {
   EXPECT_NEAR(keyCamera(keys, 9).eye.x(), 4, 1e-6);
 }
 
+TEST(View, LooksAtAPointThatRestsFromAside) {
+  const render::Picture picture =
+      pictureOf("[[body]]\nname = \"a\"\nshape = { point = {} }\nmass = 1\n");
+  EXPECT_GT((picture.camera.eye - picture.camera.target).norm(), 0.1f);
+  EXPECT_GT(picture.focusRadius, 0.1f);
+}
+
 TEST(View, DrawsALevelPlaneAsTheGround) {
   const render::Picture picture =
       pictureOf("[[body]]\nshape = { plane = { offset = 0.5 } }\n" + ball("a"));
