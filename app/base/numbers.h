@@ -6,7 +6,7 @@
 namespace app {
 
 std::string lengthText(double metres);  // "3.2 mm"
-// A value beyond a limit, in three digits or as many as tell it from that: "1.0044" of 1.
+// A value beyond a limit, in three digits or as many as tell it from that: "1.004" of 1.
 std::string textBeyond(double value, double limit);
 std::string percentText(double share);       // "0.1 %"
 std::string wholePercentText(double share);  // "12 %"; what rounds to nothing is "0 %"

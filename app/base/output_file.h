@@ -38,8 +38,7 @@ class OutputFile {
 struct NamedOutput {
   const char* option;
   std::string file;
-  bool isWhole =
-      false;  // it takes its name when it is done: what is no file, a pipe, would be gone
+  bool isWhole = false;  // it takes its name when it is done: a pipe of that name would be gone
 };
 // None of them twice, and none that is read (empty: nothing is). Throws InputError.
 void requireOwnFiles(std::initializer_list<NamedOutput> outputs, const std::string& read);
