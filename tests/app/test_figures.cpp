@@ -61,11 +61,12 @@ TEST_F(Figures, FilmsHaveACameraOfTheirOwn) {
     return std::pair(readBytes(folder / "out" / "fall.png"),
                      readBytes(folder / "out" / "fall" / "frames" / "00000.png"));
   };
+  // Beside its pixels a picture tells which sheet made it.
+  const auto pixels = [](const std::string& png) { return png.substr(png.find("IDAT")); };
   const auto [still, frame] = make("[0, 1, 5]");
   const auto [stillAgain, farther] = make("[0, 1, 9]");
-  EXPECT_EQ(stillAgain, still);
-  EXPECT_FALSE(frame.empty());
-  EXPECT_NE(farther, frame);
+  EXPECT_TRUE(pixels(stillAgain) == pixels(still));
+  EXPECT_FALSE(pixels(farther) == pixels(frame));
 }
 
 TEST_F(Figures, AreVectorsWhereThatIsAskedFor) {

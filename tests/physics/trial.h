@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <vector>
 
 #include "tests/physics/pair.h"
@@ -59,6 +60,7 @@ struct KindOfTrial {
   bool isExternal;
   std::unique_ptr<Trial> (*make)(Random&, Bodies&);
 };
+inline void PrintTo(const KindOfTrial& kind, std::ostream* to) { *to << kind.word; }
 std::vector<KindOfTrial> kindsOfTrials();
 
 class EveryKindTest : public ::testing::TestWithParam<KindOfTrial> {
