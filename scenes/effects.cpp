@@ -176,7 +176,7 @@ void fillSpeculative(const Survey& s, Effect& e) {
   e.without = {"contact.margin=0"};
 }
 
-// As physics::takesSmallSteps() has it: joints are then solved as blocks.
+// As physics::takesSmallSteps() has it: joints are then solved as blocks, and islands choose.
 bool takesSmallSteps(const Survey& s) {
   const physics::Settings& settings = s.scene.settings;
   return settings.method == Method::kSmallSteps && settings.stepping == physics::Stepping::kPaper;
@@ -213,8 +213,7 @@ void fillSleep(const Survey& s, Effect& e) {
 
 void fillLocalSubsteps(const Survey& s, Effect& e) {
   const physics::Settings& settings = s.scene.settings;
-  const bool isOwn = settings.method == physics::Method::kSmallSteps &&
-                     settings.stepping == physics::Stepping::kPaper;
+  const bool isOwn = takesSmallSteps(s);
   e.leftOut = settings.localSubsteps && (isOwn || settings.substepCount() == 1);
   e.on = settings.localSubsteps && !e.leftOut;
   e.why = !e.leftOut ? or_(s.place("simulation.local_substeps"), "local_substeps = false")
