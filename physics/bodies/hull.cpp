@@ -37,20 +37,6 @@ std::vector<int> around(const Vec3& normal, std::vector<int> ids, std::span<cons
   return ids;
 }
 
-// Points in the middle of an edge are not corners.
-void dropCollinear(std::vector<int>& ids, std::span<const Vec3> points) {
-  for (std::size_t k = 0; k < ids.size() && ids.size() > 3;) {
-    const Vec3& here = points[ids[k]];
-    const Vec3 in = here - points[ids[(k + ids.size() - 1) % ids.size()]];
-    const Vec3 out = points[ids[(k + 1) % ids.size()]] - here;
-    if (in.cross(out).norm() <= 1e-9 * in.norm() * out.norm()) {
-      ids.erase(ids.begin() + static_cast<std::ptrdiff_t>(k));
-    } else {
-      ++k;
-    }
-  }
-}
-
 // Qhull's C interface (its C++ one does not compile as C++20), freed whatever happens.
 struct Qhull {
   Qhull() : silent(std::fopen("/dev/null", "w")) { qh_zero(&state, silent); }
@@ -66,26 +52,40 @@ struct Qhull {
   qhT state{};
 };
 
-std::vector<std::vector<int>> facets(std::span<const Vec3> points) {
+// Corners of one facet, by index, counter-clockwise from outside.
+using Corners = std::vector<int>;
+
+// What fewer than three facets meet in lies on an edge, or on a facet.
+void keepCorners(std::vector<Corners>& facets, std::size_t points) {
+  std::vector<int> meet(points, 0);
+  for (const Corners& corners : facets) {
+    for (const int i : corners) ++meet[i];
+  }
+  for (Corners& corners : facets) std::erase_if(corners, [&](int i) { return meet[i] < 3; });
+}
+
+// Of points whose largest coordinate is 1. Facets are one where they are within 1e-5 of one plane:
+// files have six digits.
+std::vector<Corners> facets(std::span<const Vec3> points) {
   std::vector<double> flat;
   for (const Vec3& p : points) flat.insert(flat.end(), {p.x(), p.y(), p.z()});
   const auto qhull = std::make_unique<Qhull>();
   qhT* const qh = &qhull->state;
-  char command[] = "qhull";
+  char command[] = "qhull C-1e-5";
   const int failed = qh_new_qhull(qh, 3, static_cast<int>(points.size()), flat.data(), False,
                                   command, nullptr, qhull->silent);
   require(failed == 0, "convex hull: the points lie in one plane, on one line or in one point");
-  std::vector<std::vector<int>> found;
+  std::vector<Corners> found;
   for (const facetT* facet = qh->facet_list; facet->next != nullptr; facet = facet->next) {
-    std::vector<int> ids;
+    Corners ids;
     for (int k = 0; k < qh_setsize(qh, facet->vertices); ++k) {
       const auto* vertex = static_cast<const vertexT*>(facet->vertices->e[k].p);
       ids.push_back(qh_pointid(qh, vertex->point));
     }
     const Vec3 normal(facet->normal[0], facet->normal[1], facet->normal[2]);
     found.push_back(around(normal, std::move(ids), points));
-    dropCollinear(found.back(), points);
   }
+  keepCorners(found, points.size());
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -174,7 +174,7 @@ Hull convexHull(std::span<const Vec3> points) {
   require(scale > 0, "convex hull: all points are the origin");
   std::vector<Vec3> unit;  // Qhull's tolerances are absolute in places
   for (const Vec3& p : points) unit.push_back(p / scale);
-  std::vector<std::vector<int>> found = facets(unit);
+  std::vector<Corners> found = facets(unit);
   std::vector<int> newIndex(points.size(), -1);
   for (const auto& ids : found) {
     for (const int i : ids) newIndex[i] = 0;

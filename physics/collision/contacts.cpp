@@ -14,24 +14,47 @@ Vec3 tangentTo(const Vec3& n) {
   return n.cross(Vec3::Unit(smallest)).normalized();
 }
 
-// The furthest spots along the four diagonals of the plane of touch: the corners of an upright
-// face. They do not depend on the gaps, so that the choice stays while a body settles.
+// Twice the area of the triangle of three spots; positive: they go round counter-clockwise.
+double twiceArea(const Spot& a, const Spot& b, const Spot& c) {
+  return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+}
+
+// One spot at an end, the furthest from it, the one that spans the largest triangle with these, and
+// the one that adds most to that. It does not depend on the gaps, so that the choice stays while a
+// body settles.
 Choice spread(std::span<const Spot> spots, const Limits& limits) {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  std::array<double, 4> most = {kNone, kNone, kNone, kNone};
-  std::array<int, 4> furthest = {-1, -1, -1, -1};
-  for (std::size_t i = 0; i < spots.size(); ++i) {
-    const Spot& s = spots[i];
-    if (!(s.gap <= limits.keep)) continue;
-    const std::array<double, 4> along = {s.u + s.v, s.u - s.v, -s.u - s.v, s.v - s.u};
-    for (int k = 0; k < 4; ++k) {
-      if (along[k] > most[k] + limits.tie) most[k] = along[k], furthest[k] = static_cast<int>(i);
-    }
-  }
   Choice chosen;
-  for (const int i : furthest) {
-    if (i >= 0) chosen.take(i);
+  // The spot of the largest size, and of those as large to `tie` the first. False: all are as none.
+  const auto takeLargest = [&](double none, double tie, auto&& size) {
+    int largest = -1;
+    double most = none;
+    for (std::size_t i = 0; i < spots.size(); ++i) {
+      if (!(spots[i].gap <= limits.keep)) continue;
+      const double here = size(spots[i]);
+      if (here > most + tie) most = here, largest = static_cast<int>(i);
+    }
+    if (largest >= 0) chosen.take(largest);
+    return largest >= 0;
+  };
+  const auto at = [&](int k) -> const Spot& { return spots[chosen.index[k]]; };
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  if (!takeLargest(kNone, limits.tie, [](const Spot& s) { return s.u + s.v; })) return chosen;
+  const Spot& a = at(0);
+  const auto way = [&](const Spot& s) {
+    return std::sqrt((s.u - a.u) * (s.u - a.u) + (s.v - a.v) * (s.v - a.v));
+  };
+  if (!takeLargest(0, limits.tie, way)) return chosen;
+  const Spot& b = at(1);
+  const double tie = limits.tie * way(b);
+  if (!takeLargest(0, tie, [&](const Spot& s) { return std::abs(twiceArea(a, b, s)); })) {
+    return chosen;
   }
+  const Spot& c = at(2);
+  const double turn = twiceArea(a, b, c) > 0 ? 1 : -1;
+  takeLargest(0, tie, [&](const Spot& s) {
+    const double ab = turn * twiceArea(a, b, s), bc = turn * twiceArea(b, c, s);
+    return -std::min({ab, bc, turn * twiceArea(c, a, s)});
+  });
   return chosen;
 }
 

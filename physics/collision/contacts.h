@@ -87,8 +87,8 @@ struct Choice {
     }
   }
 };
-// At most four of the spots: the furthest along the diagonals of the plane, and the deepest where
-// it is clearly deeper than those.
+// At most four of the spots: those that span the most, and the deepest where it is clearly deeper
+// than those.
 Choice choose(std::span<const Spot> spots, const Limits& limits);
 
 // Fills the manifold with the points chosen, by feature.

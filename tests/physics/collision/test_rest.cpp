@@ -1,9 +1,12 @@
 // Resting poses: how many points, where, and with what gap.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "physics/base/rotation.h"
+#include "physics/collision/contacts.h"
 #include "tests/physics/collision/scene_of_two.h"
 
 namespace physics {
@@ -166,6 +169,54 @@ TEST_P(Rest, KeepsItsFeaturesUnderAJiggle) {
     for (int i = 0; i < after[0].count; ++i) {
       EXPECT_EQ(after[0].points[i].feature, before[0].points[i].feature);
     }
+  }
+}
+
+// A square that is turned by 45 degrees has two corners furthest along each diagonal.
+TEST(ColliderRest, ABoxStandsOnFourCornersHoweverItIsTurned) {
+  for (const double width : {1.0, 0.5, 2.0}) {
+    for (int degrees = 0; degrees <= 180; degrees += 5) {
+      const Box box{Vec3(1, 1, width)};
+      const Pose above{Vec3(0, 0.5, 0), turned(Vec3::UnitY(), degrees)};
+      const auto onPlane = meet(box, above, Plane{Vec3::UnitY(), 0}, Pose{});
+      const auto onBox = meet(box, above, Box{Vec3(4, 1, 4)}, {Vec3(0, -0.5, 0), Quat::Identity()});
+      ASSERT_EQ(onPlane.size(), 1u);
+      ASSERT_EQ(onBox.size(), 1u);
+      EXPECT_EQ(onPlane[0].count, 4) << width << " at " << degrees;
+      EXPECT_EQ(onBox[0].count, 4) << width << " at " << degrees;
+    }
+  }
+}
+
+// Corners in order; four of a circle's span 2/pi of it.
+TEST(ColliderRest, FourPointsSpanAtLeastHalfOfWhatTouches) {
+  const auto areaOf = [](std::span<const collision::Spot> corners) {
+    double twice = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const collision::Spot &a = corners[i], &b = corners[(i + 1) % corners.size()];
+      twice += a.u * b.v - a.v * b.u;
+    }
+    return 0.5 * twice;
+  };
+  Random random(5);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const int count = 3 + trial % 14;
+    const double flat = random.number(0.02, 1), turn = random.number(0, 6.28);
+    std::vector<double> angles;
+    for (int i = 0; i < count; ++i) angles.push_back(random.number(0, 6.28));
+    std::sort(angles.begin(), angles.end());
+    std::vector<collision::Spot> spots;
+    for (const double angle : angles) {
+      const double x = std::cos(angle), y = flat * std::sin(angle);
+      spots.push_back(
+          {x * std::cos(turn) - y * std::sin(turn), x * std::sin(turn) + y * std::cos(turn), 0});
+    }
+    collision::Choice chosen = collision::choose(spots, {.keep = 1, .tie = 1e-6, .clearly = 1});
+    chosen.sort([](int i) { return i; });
+    std::vector<collision::Spot> kept;
+    for (int k = 0; k < chosen.count; ++k) kept.push_back(spots[chosen.index[k]]);
+    EXPECT_GT(areaOf(kept), 0.5 * areaOf(spots)) << trial;
+    EXPECT_LE(chosen.count, 4);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "physics/bodies/hull.h"
 #include "tests/physics/collision/scene_of_two.h"
 
 namespace physics {
@@ -144,6 +145,27 @@ TEST(Hull, OfRandomPointsHoldsThemAllAndIsClosed) {
       for (const Hull::Face& face : hull.faces)
         EXPECT_LE(face.normal.dot(local), face.offset + 1e-12);
     }
+  }
+}
+
+// A dodecahedron from a file: turned, and in six digits, so that no five corners are in one plane.
+TEST(Hull, OfPointsInSixDigitsHasTheFacesThatAreMeant) {
+  const double golden = (1 + std::sqrt(5)) / 2;
+  std::vector<Vec3> points = cubeCorners(1);
+  for (int i = 0; i < 4; ++i) {
+    const double u = (i & 1 ? 1 : -1) / golden, v = (i & 2 ? 1 : -1) * golden;
+    points.insert(points.end(), {Vec3(0, u, v), Vec3(u, v, 0), Vec3(v, 0, u)});
+  }
+  Random random(3);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Quat q = random.rotation();
+    std::vector<Vec3> written;
+    for (const Vec3& p : points) written.push_back((q * p * 1e6).array().round() / 1e6);
+    const Hull hull = convexHull(written);
+    EXPECT_EQ(hull.faces.size(), 12u);
+    EXPECT_EQ(hull.vertices.size(), 20u);
+    EXPECT_EQ(hull.edges.size(), 30u);
+    for (const Hull::Face& face : hull.faces) EXPECT_EQ(face.vertices.size(), 5u);
   }
 }
 
