@@ -16,7 +16,7 @@ struct Frame {
 
   Frame(const Solid& box, int face)
       : k(face / 2), u((k + 1) % 3), v((k + 2) % 3), sign(face % 2 ? 1 : -1), height(box.half[k]) {}
-  Spot spot(const Vec3& p) const { return {p[u], p[v], sign * p[k] - height}; }
+  Spot spot(const Vec3& p) const { return {p[u], p[v], sign * p[k] - height, 0}; }
   Vec3 point(const Spot& spot, double gap) const {
     Vec3 p;
     p[u] = spot.u;
@@ -46,7 +46,7 @@ Corner cut(const Corner& from, const Corner& to, double fromOut, double toOut, i
   const double part = fromOut / (fromOut - toOut);
   const auto between = [&](double p, double q) { return p + part * (q - p); };
   return {{between(from.spot.u, to.spot.u), between(from.spot.v, to.spot.v),
-           between(from.spot.gap, to.spot.gap)},
+           between(from.spot.gap, to.spot.gap), 0},
           cutId(from.edge, static_cast<std::uint32_t>(side)),
           from.edge};
 }
@@ -130,9 +130,12 @@ void finish(const Solid& a, const Solid& b, const Relative& pose, const FacePoin
   const Solid &flat = ofA ? a : b, &other = ofA ? b : a;
   const Frame frame(flat, points.face);
   std::array<Spot, FacePoints::kRoom> spots;
-  for (int i = 0; i < points.count; ++i) spots[i] = points.corners[i].spot;
+  for (int i = 0; i < points.count; ++i) {
+    spots[i] = points.corners[i].spot;
+    spots[i].feature = facetFeature(points.owner, points.face, points.corners[i].id);
+  }
   Choice chosen = choose({spots.data(), static_cast<std::size_t>(points.count)}, limits);
-  chosen.sort([&](int i) { return points.corners[i].id; });
+  chosen.sort([&](int i) { return spots[i].feature; });
   out.normal =
       ofA ? Vec3(-frame.sign * pose.R.col(frame.k)) : Vec3(frame.sign * Vec3::Unit(frame.k));
   out.count = chosen.count;
@@ -146,7 +149,7 @@ void finish(const Solid& a, const Solid& b, const Relative& pose, const FacePoin
     point.coreB = ofA ? onOther : onFlat;
     point.radiusA = ofA ? 0 : other.rounding;
     point.radiusB = 0;
-    point.feature = facetFeature(points.owner, points.face, corner.id);
+    point.feature = spots[chosen.index[k]].feature;
   }
 }
 

@@ -132,6 +132,7 @@ struct Collider::Impl {
     const double near = b.isPlane || isShort(a, b, reach - margin) ? reach : margin;
     if (b.solid.kind == SolidKind::triangles) return lookAtMesh(watch, found, a, b, near, reach);
     const double turn = a.turn + b.turn;
+    found.manifold.count = watch.count;
     watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, turn, found.manifold);
     watch.setNormal(found.manifold.normal);
     ++watch.calls;

@@ -19,44 +19,85 @@ double twiceArea(const Spot& a, const Spot& b, const Spot& c) {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-// One spot at an end, the furthest from it, the one that spans the largest triangle with these, and
-// the one that adds most to that. It does not depend on the gaps, so that the choice stays while a
-// body settles.
-Choice spread(std::span<const Spot> spots, const Limits& limits) {
-  Choice chosen;
+// What a spot adds to the triangle of three others; negative: it is inside.
+double twiceBeyond(const Spot& a, const Spot& b, const Spot& c, const Spot& s) {
+  const double turn = twiceArea(a, b, c) > 0 ? 1 : -1;
+  const double ab = turn * twiceArea(a, b, s), bc = turn * twiceArea(b, c, s);
+  return -std::min({ab, bc, turn * twiceArea(c, a, s)});
+}
+
+double way(const Spot& a, const Spot& b) {
+  return std::sqrt((b.u - a.u) * (b.u - a.u) + (b.v - a.v) * (b.v - a.v));
+}
+
+class Spots {
+ public:
+  Spots(std::span<const Spot> spots, const Limits& limits) : spots_(spots), limits_(limits) {}
+
+  // One at an end, the furthest from it, the one that spans the largest triangle with these, and
+  // the one that adds most to that.
+  Choice spread() const {
+    constexpr double kNone = -std::numeric_limits<double>::infinity();
+    Choice chosen;
+    if (!takeLargest(chosen, kNone, limits_.tie, [](const Spot& s) { return s.u + s.v; })) {
+      return chosen;
+    }
+    const Spot& a = at(chosen, 0);
+    if (!takeLargest(chosen, 0, limits_.tie, [&](const Spot& s) { return way(a, s); })) {
+      return chosen;
+    }
+    const Spot& b = at(chosen, 1);
+    const auto area = [&](const Spot& s) { return std::abs(twiceArea(a, b, s)); };
+    if (takeLargest(chosen, 0, limits_.tie * way(a, b), area)) takeBeyond(chosen);
+    return chosen;
+  }
+
+  // Those that were kept last, and where these are three the one that adds most to them.
+  Choice stayed() const {
+    Choice chosen;
+    for (std::size_t i = 0; i < spots_.size(); ++i) {
+      if (!(spots_[i].gap <= limits_.keep) || chosen.count == Manifold::kMaxPoints) continue;
+      const auto& before = limits_.before;
+      const bool wasKept =
+          std::find(before.begin(), before.end(), spots_[i].feature) != before.end();
+      if (wasKept) chosen.take(static_cast<int>(i));
+    }
+    if (chosen.count == 3) takeBeyond(chosen);
+    return chosen;
+  }
+
+  double twiceAreaOf(const Choice& chosen) const {
+    if (chosen.count < 3) return 0;
+    const Spot &a = at(chosen, 0), &b = at(chosen, 1), &c = at(chosen, 2);
+    const double three = std::abs(twiceArea(a, b, c));
+    return chosen.count < 4 ? three : three + std::max(0.0, twiceBeyond(a, b, c, at(chosen, 3)));
+  }
+
+ private:
+  const Spot& at(const Choice& chosen, int k) const { return spots_[chosen.index[k]]; }
+
   // The spot of the largest size, and of those as large to `tie` the first. False: all are as none.
-  const auto takeLargest = [&](double none, double tie, auto&& size) {
+  template <class F>
+  bool takeLargest(Choice& chosen, double none, double tie, F&& size) const {
     int largest = -1;
     double most = none;
-    for (std::size_t i = 0; i < spots.size(); ++i) {
-      if (!(spots[i].gap <= limits.keep)) continue;
-      const double here = size(spots[i]);
+    for (std::size_t i = 0; i < spots_.size(); ++i) {
+      if (!(spots_[i].gap <= limits_.keep)) continue;
+      const double here = size(spots_[i]);
       if (here > most + tie) most = here, largest = static_cast<int>(i);
     }
     if (largest >= 0) chosen.take(largest);
     return largest >= 0;
-  };
-  const auto at = [&](int k) -> const Spot& { return spots[chosen.index[k]]; };
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  if (!takeLargest(kNone, limits.tie, [](const Spot& s) { return s.u + s.v; })) return chosen;
-  const Spot& a = at(0);
-  const auto way = [&](const Spot& s) {
-    return std::sqrt((s.u - a.u) * (s.u - a.u) + (s.v - a.v) * (s.v - a.v));
-  };
-  if (!takeLargest(0, limits.tie, way)) return chosen;
-  const Spot& b = at(1);
-  const double tie = limits.tie * way(b);
-  if (!takeLargest(0, tie, [&](const Spot& s) { return std::abs(twiceArea(a, b, s)); })) {
-    return chosen;
   }
-  const Spot& c = at(2);
-  const double turn = twiceArea(a, b, c) > 0 ? 1 : -1;
-  takeLargest(0, tie, [&](const Spot& s) {
-    const double ab = turn * twiceArea(a, b, s), bc = turn * twiceArea(b, c, s);
-    return -std::min({ab, bc, turn * twiceArea(c, a, s)});
-  });
-  return chosen;
-}
+  void takeBeyond(Choice& chosen) const {
+    const Spot &a = at(chosen, 0), &b = at(chosen, 1), &c = at(chosen, 2);
+    takeLargest(chosen, 0, limits_.tie * way(a, b),
+                [&](const Spot& s) { return twiceBeyond(a, b, c, s); });
+  }
+
+  std::span<const Spot> spots_;
+  const Limits& limits_;
+};
 
 // The deepest spot, where it is clearly deeper than those chosen: of four it takes the place of the
 // one nearest to it.
@@ -83,7 +124,12 @@ void insistOnDeepest(std::span<const Spot> spots, double clearly, Choice& chosen
 }  // namespace
 
 Choice choose(std::span<const Spot> spots, const Limits& limits) {
-  Choice chosen = spread(spots, limits);
+  const Spots all(spots, limits);
+  Choice chosen = all.spread();
+  if (spots.size() > Manifold::kMaxPoints && !limits.before.empty()) {
+    const Choice stayed = all.stayed();
+    if (2 * all.twiceAreaOf(stayed) > all.twiceAreaOf(chosen)) chosen = stayed;
+  }
   insistOnDeepest(spots, limits.clearly, chosen);
   return chosen;
 }
@@ -180,7 +226,7 @@ void finish(const Contacts& contacts, const Relative& pose, const Limits& limits
   std::array<Spot, Patch::kRoom> spots;
   for (int i = 0; i < contacts.count; ++i) {
     const Candidate& point = contacts.points[i];
-    spots[i] = {point.onA.dot(t1), point.onA.dot(t2), point.gap};
+    spots[i] = {point.onA.dot(t1), point.onA.dot(t2), point.gap, point.feature};
   }
   Choice chosen = choose({spots.data(), static_cast<std::size_t>(contacts.count)}, limits);
   chosen.sort([&](int i) { return contacts.points[i].feature; });

@@ -60,11 +60,13 @@ struct Limits {
   double keep = 0;     // m: gaps up to this
   double tie = 0;      // m: points this close in rank are one, the earlier
   double clearly = 0;  // m: a point this much deeper than those chosen is chosen
+  std::span<const std::uint32_t> before = {};  // features of the points that were kept last
 };
 
 // A point in the plane of touch; u and v along two axes of the plane.
 struct Spot {  // left uninitialised on purpose
   double u, v, gap;
+  std::uint32_t feature;
 };
 struct Choice {
   std::array<int, Manifold::kMaxPoints> index{};
@@ -87,8 +89,9 @@ struct Choice {
     }
   }
 };
-// At most four of the spots: those that span the most, and the deepest where it is clearly deeper
-// than those.
+// At most four of the spots: those that were kept last while they span half of what touches, else
+// those that span the most; and the deepest where it is clearly deeper than those. What a body
+// leans on beside those that span the most stays when it no longer leans.
 Choice choose(std::span<const Spot> spots, const Limits& limits);
 
 // Fills the manifold with the points chosen, by feature.

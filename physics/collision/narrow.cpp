@@ -31,19 +31,41 @@ Line placed(const Line& line, const Relative& pose) {
 }
 
 // Beside lines that touch, the faces along them: bodies that turn a little until the next look meet
-// there. What a turns towards the face of b that looks along n the most, with its gaps along n.
+// there. What one turns towards the face of the other that looks along n the most, with its gaps
+// along n.
 void addFacing(const Solid& a, const Solid& b, const Relative& pose, Contacts& contacts) {
-  if (!b.isPolyhedron()) return;
   const Vec3& n = contacts.n;
-  const int index = nearestFace(b, n), lines = contacts.count;
-  const Facet face = facet(b, index);
-  const double cosine = face.normal.dot(n), size = smallerSize(a, b);
-  if (!(cosine >= kFacing)) return;
+  const int lines = contacts.count;
+  const double size = smallerSize(a, b);
+  Owner owner = Owner::b;
+  int index = -1;
+  Facet face;
+  double cosine = kFacing;
+  const auto offer = [&](Owner of, const Solid& solid, const Vec3& along) {
+    if (!solid.isPolyhedron()) return;
+    const int nearest = nearestFace(solid, along);
+    const Facet there = facet(solid, nearest);
+    const double here = there.normal.dot(along);
+    if (here > cosine) owner = of, index = nearest, face = there, cosine = here;
+  };
+  const Vec3 toB = -(pose.R.transpose() * n);
+  offer(Owner::b, b, n);
+  offer(Owner::a, a, toB);
+  if (index < 0) return;
   Patch flat, other;
-  facetPatch(b, index, flat);
-  facing(a, -(pose.R.transpose() * n), other);
-  transform(other, pose);
-  clip(other, flat, n, -kSideTolerance * size);
+  if (owner == Owner::a) {
+    facetPatch(a, index, flat);
+    transform(flat, pose);
+    face.normal = pose.R * face.normal;
+    face.offset += face.normal.dot(pose.t);
+    facing(b, n, other);
+    clip(other, flat, -n, -kSideTolerance * size);
+  } else {
+    facetPatch(b, index, flat);
+    facing(a, toB, other);
+    transform(other, pose);
+    clip(other, flat, n, -kSideTolerance * size);
+  }
   for (int i = 0; i < other.count && contacts.count < Patch::kRoom; ++i) {
     const Vec3& p = other.corners[i].p;
     bool isKnown = false;
@@ -52,7 +74,12 @@ void addFacing(const Solid& a, const Solid& b, const Relative& pose, Contacts& c
     }
     if (isKnown) continue;
     const double height = (face.normal.dot(p) - face.offset) / cosine;
-    contacts.add(p, p - height * n, facetFeature(Owner::b, index, other.corners[i].id));
+    const std::uint32_t feature = facetFeature(owner, index, other.corners[i].id);
+    if (owner == Owner::a) {
+      contacts.add(p + height * n, p, feature);
+    } else {
+      contacts.add(p, p - height * n, feature);
+    }
   }
 }
 
@@ -224,7 +251,10 @@ double touch(const Solid& a, const Solid& b, const Relative& pose, double reach,
              double turn, Manifold& out) {
   const double size = smallerSize(a, b);
   const bool rim = a.kind == SolidKind::cylinder || b.kind == SolidKind::cylinder;
-  const Limits limits{keep, kTie * size, (rim ? kRimDeeper : kDeeper) * size};
+  std::array<std::uint32_t, Manifold::kMaxPoints> before;
+  for (int k = 0; k < out.count; ++k) before[k] = out.points[k].feature;
+  const Limits limits{keep, kTie * size, (rim ? kRimDeeper : kDeeper) * size,
+                      std::span(before).first(out.count)};
   out.count = 0;
   Contacts contacts;
   double distance = 0;

@@ -12,6 +12,7 @@ namespace physics::collision {
 // that far apart along out.normal. It is the best bound of the directions tried unless above
 // `keep`. `turn` [m]: what corners may turn by before the two are looked at again. Faces that are
 // nearly parallel meet with all of their corners then, though two of their edges are nearer now.
+// Where more points touch than a manifold has, those that `out` has from the last look stay.
 double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
              double turn, Manifold& out);
 

@@ -260,6 +260,29 @@ TEST(Collider, ABarThatLiesOnAnEdgeKnowsTheOneItTurnsTo) {
   EXPECT_NEAR(far.onB.x(), -0.5, 1e-2);
 }
 
+// A face on a ridge, lower at one of its sides: that side and the ridge touch, and when the face
+// turns it meets the ridge at the other side, whichever of the two bodies it is of.
+TEST(Collider, AFaceOnARidgeIsKnownAtBothOfItsSides) {
+  const double degrees = 1, tilt = degrees * std::numbers::pi / 180, overlap = 1e-3;
+  const Box block{Vec3(1, 1, 1)}, beam{Vec3(1, 1, 3)};
+  const Pose ridge{Vec3(0, -std::sqrt(0.5), 0), turned(Vec3::UnitZ(), 45)};
+  const double height = 0.5 * std::cos(tilt) + 0.5 * std::sin(tilt) - overlap;
+  const Pose above{Vec3(0, height, 0), turned(Vec3::UnitX(), degrees)};
+  for (const bool isFirst : {true, false}) {
+    const auto found = isFirst ? meet(block, above, beam, ridge) : meet(beam, ridge, block, above);
+    const std::vector<Pose> poses = {{}, isFirst ? above : ridge, isFirst ? ridge : above};
+    ASSERT_EQ(found.size(), 1u);
+    ASSERT_EQ(found[0].count, 2);
+    Point near = place(found[0], 0, poses), far = place(found[0], 1, poses);
+    if (near.gap > far.gap) std::swap(near, far);
+    EXPECT_NEAR(std::abs(near.n.y()), 1, 1e-9);  // of the ridge and the side, not of the face
+    EXPECT_NEAR(near.gap, -overlap, 1e-9);
+    EXPECT_NEAR(far.gap - near.gap, std::tan(tilt), 1e-3);
+    EXPECT_NEAR(near.onB.z(), 0.5, 1e-2);
+    EXPECT_NEAR(far.onB.z(), -0.5, 1e-2);
+  }
+}
+
 // Two bars that are nearly parallel: where they part, their sides are further from each other than
 // in the middle, and points face each other along the normal.
 TEST(Collider, BarsThatNearlyLieAlongEachOtherKnowWhereTheyPart) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "physics/base/rotation.h"
@@ -209,7 +210,7 @@ TEST(ColliderRest, FourPointsSpanAtLeastHalfOfWhatTouches) {
     for (const double angle : angles) {
       const double x = std::cos(angle), y = flat * std::sin(angle);
       spots.push_back(
-          {x * std::cos(turn) - y * std::sin(turn), x * std::sin(turn) + y * std::cos(turn), 0});
+          {x * std::cos(turn) - y * std::sin(turn), x * std::sin(turn) + y * std::cos(turn), 0, 0});
     }
     collision::Choice chosen = collision::choose(spots, {.keep = 1, .tie = 1e-6, .clearly = 1});
     chosen.sort([](int i) { return i; });
@@ -218,6 +219,41 @@ TEST(ColliderRest, FourPointsSpanAtLeastHalfOfWhatTouches) {
     EXPECT_GT(areaOf(kept), 0.5 * areaOf(spots)) << trial;
     EXPECT_LE(chosen.count, 4);
   }
+}
+
+// An octagon, four corners of which span the most. Those change with what the body leans on, not
+// back when it leans no more: else it would lean again.
+TEST(ColliderRest, ACornerThatWasLeantOnStays) {
+  std::vector<collision::Spot> spots;
+  for (std::uint32_t k = 0; k < 8; ++k) {
+    const double angle = 0.1 + k * std::numbers::pi / 4;
+    spots.push_back({std::cos(angle), std::sin(angle), 0, 100 + k});
+  }
+  std::vector<std::uint32_t> before;
+  const auto chosen = [&] {
+    const collision::Limits limits{.keep = 1, .tie = 1e-6, .clearly = 1e-3, .before = before};
+    const collision::Choice choice = collision::choose(spots, limits);
+    std::vector<std::uint32_t> features;
+    for (int k = 0; k < choice.count; ++k) features.push_back(spots[choice.index[k]].feature);
+    std::sort(features.begin(), features.end());
+    return features;
+  };
+  const std::vector<std::uint32_t> level = chosen();
+  ASSERT_EQ(level.size(), 4u);
+  const auto other = [&](const collision::Spot& s) {
+    return std::find(level.begin(), level.end(), s.feature) == level.end();
+  };
+  const auto corner = std::find_if(spots.begin(), spots.end(), other);
+  before = level;
+  EXPECT_EQ(chosen(), level);
+  corner->gap = -0.01;
+  const std::vector<std::uint32_t> leaning = chosen();
+  EXPECT_EQ(std::count(leaning.begin(), leaning.end(), corner->feature), 1);
+  corner->gap = 0;
+  before = leaning;
+  EXPECT_EQ(chosen(), leaning);
+  before = {100, 101, 102, 103};  // on one side: they span less than half
+  EXPECT_EQ(chosen(), level);
 }
 
 // Its bounds were taken with all others at first; they are not of those that move now.
