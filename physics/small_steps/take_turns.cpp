@@ -89,22 +89,42 @@ void SmallSteps::Impl::addWork(const Model& w, const Batch& batch, std::vector<d
 // which is too much: with s lambda it is s lambda^T J u0 + s^2 lambda^T J (u1 - u0) / 2. True:
 // there is some.
 bool SmallSteps::Impl::findRise(Model& w, Batch& batch) {
-  const auto swap = [&] {
-    for (const BodyId i : batch.bodies) std::swap(moved[i], predicted[i]);
-  };
-  swap();
+  swapPredicted(batch);
   toLanes(w, batch);
   addWork(w, batch, load);
-  swap();
+  swapPredicted(batch);
   toLanes(w, batch);
   addWork(w, batch, carried);
+  for (const BodyId i : batch.bodies) change[i] = 1;
+  return findShares(batch);
+}
+
+// And no more than by the same of what joints alone make of what was predicted: of planks that hang
+// and crates that stand on them both fall in one as in the other, and what parts them by the least
+// would be all that contacts do.
+bool SmallSteps::Impl::confirmRise(Model& w, Batch& batch, const JointStage& stage) {
+  for (const BodyId i : batch.bodies) change[i] = change[islands[i]];
+  swapPredicted(batch);
+  batch.joints.holdVelocities(stage, change);
+  toLanes(w, batch);
+  addWork(w, batch, load);
+  swapPredicted(batch);
+  toLanes(w, batch);
+  return findShares(batch);
+}
+
+void SmallSteps::Impl::swapPredicted(const Batch& batch) {
+  for (const BodyId i : batch.bodies) std::swap(moved[i], predicted[i]);
+}
+
+// Of islands, by their first body: no more than `change` was.
+bool SmallSteps::Impl::findShares(const Batch& batch) {
   bool some = false;
   for (const BodyId i : batch.bodies) {
     const double before = load[i], more = carried[i] - load[i];
-    change[i] = 0;
-    if (islands[i] != i || !(before + carried[i] > 0) || !(more > 0)) continue;
-    change[i] = std::clamp(1 + 2 * before / more, 0.0, 1.0);
-    some = true;
+    const bool rises = islands[i] == i && before + carried[i] > 0 && more > 0;
+    change[i] = rises ? std::clamp(1 + 2 * before / more, 0.0, change[i]) : 0;
+    some = some || change[i] > 0;
   }
   return some;
 }
@@ -146,7 +166,7 @@ void SmallSteps::Impl::forgetLoads(Model& w, Batch& batch) {
 // most of what it was given: what a hit leaves behind would throw figures. Joints of the other
 // islands stay as they are.
 void SmallSteps::Impl::boundWork(Model& w, Batch& batch, const JointStage& stage) {
-  if (!findRise(w, batch)) return;
+  if (!findRise(w, batch) || !confirmRise(w, batch, stage)) return;
   for (ContactBlock& block : batch.blocks) {
     LaneNumbers shares;
     bool some = false;

@@ -153,6 +153,10 @@ void JointPacks::solveVelocities(const LaneBodies& lanes) {
   forEach([&](auto& pack) { pack.solveVelocities(lanes); });
 }
 
+void JointPacks::holdVelocities(const JointStage& stage, std::span<const double> wanted) {
+  forEach([&](auto& pack) { pack.holdVelocities(stage, wanted); });
+}
+
 void JointPacks::refineVelocities(const JointStage& stage) {
   forEach([&](auto& pack) { pack.refineVelocities(stage); });
 }

@@ -170,6 +170,7 @@ class JointPack {
   void solveVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage, std::span<const double> wanted);
   void solveVelocities(const LaneBodies& lanes);
+  void holdVelocities(const JointStage& stage, std::span<const double> wanted);
   void refineVelocities(const JointStage& stage);
   void respond();
   void finish(Kinds& kinds, double h);
@@ -188,6 +189,8 @@ class JointPack {
   void seeOthers(const JointStage& stage, bool all, bool inPositions);
   void seeWays(const JointStage& stage);
   void openAll();
+  void open(std::span<const double> wanted);
+  bool isNoneOpen() const;
   void solveOpenVelocities();
   void solveOpenVelocities(const JointStage& stage);
   void takeLanes(const LaneBodies& lanes);
@@ -284,6 +287,9 @@ class JointPacks {
   // Of those alone of which `wanted`, by their first body, is more than 0.
   void solveVelocities(const JointStage& stage, std::span<const double> wanted);
   void solveVelocities(const LaneBodies& lanes);
+  // What those bodies would move by if the joints that hold now held them alone; these do not
+  // change.
+  void holdVelocities(const JointStage& stage, std::span<const double> wanted);
   void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
   void respond();                                  // of those that ask: `Articulation::response`
   void addRows(std::vector<SharedRow>& rows);      // as they were evaluated last

@@ -338,6 +338,18 @@ void JointPack<W>::openAll() {
 }
 
 template <int W>
+void JointPack<W>::open(std::span<const double> wanted) {
+  for (int l = 0; l < W; ++l) {
+    open_.v[l] = l < lanes_ && wanted[of_[l]->bodies_.front()] > 0 ? 1 : 0;
+  }
+}
+
+template <int W>
+bool JointPack<W>::isNoneOpen() const {
+  return std::none_of(open_.v, open_.v + W, [](double open) { return open > 0; });
+}
+
+template <int W>
 void JointPack<W>::see(const JointStage& stage, bool first) {
   const JointKernels<W>& kernels = jointKernels<W>();
   place(first && !stage.spin.empty());
@@ -712,10 +724,23 @@ void JointPack<W>::solveVelocities(const JointStage& stage) {
 
 template <int W>
 void JointPack<W>::solveVelocities(const JointStage& stage, std::span<const double> wanted) {
-  for (int l = 0; l < W; ++l) {
-    open_.v[l] = l < lanes_ && wanted[of_[l]->bodies_.front()] > 0 ? 1 : 0;
-  }
+  open(wanted);
   solveOpenVelocities(stage);
+}
+
+template <int W>
+void JointPack<W>::holdVelocities(const JointStage& stage, std::span<const double> wanted) {
+  open(wanted);
+  if (isNoneOpen()) return;
+  gatherMotion<W>(ids_, stage.moved, bodies_);
+  for (int l = 0; l < lanes_; ++l) noteStep(l, 0);
+  const JointKernels<W>& kernels = jointKernels<W>();
+  factorizeStale();
+  kernels.aimAtVelocities(view());
+  kernels.substitute(view());
+  kernels.apply(view());
+  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
+  for (int l = 0; l < lanes_; ++l) goBack(l, 0);
 }
 
 template <int W>
@@ -734,7 +759,7 @@ void JointPack<W>::refineVelocities(const JointStage& stage) {
 
 template <int W>
 void JointPack<W>::solveOpenVelocities(const JointStage& stage) {
-  if (std::none_of(open_.v, open_.v + W, [](double open) { return open > 0; })) return;
+  if (isNoneOpen()) return;
   gatherMotion<W>(ids_, stage.moved, bodies_);
   solveOpenVelocities();
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
