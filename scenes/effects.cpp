@@ -176,12 +176,6 @@ void fillSpeculative(const Survey& s, Effect& e) {
   e.without = {"contact.margin=0"};
 }
 
-// As physics::takesSmallSteps() has it: joints are then solved as blocks, and islands choose.
-bool takesSmallSteps(const Survey& s) {
-  const physics::Settings& settings = s.scene.settings;
-  return settings.method == Method::kSmallSteps && settings.stepping == physics::Stepping::kPaper;
-}
-
 void fillDirect(const Survey& s, Effect& e) {
   const Method chosen = s.scene.settings.method;
   const bool asked = chosen == Method::kDirect;
@@ -193,7 +187,7 @@ void fillDirect(const Survey& s, Effect& e) {
     if (made != s.kinds.end() && counts) equalities += made->second.equalities;
   });
   e.leftOut = asked && equalities == 0;
-  e.on = (asked || takesSmallSteps(s)) && equalities > 0;
+  e.on = (asked || s.scene.settings.takesSmallSteps()) && equalities > 0;
   const std::string method = fmt::format("method = \"{}\"", wordOf(chosen));
   e.why =
       e.leftOut ? "no joint to solve directly" : or_(s.place("simulation.method"), method.c_str());
@@ -213,7 +207,7 @@ void fillSleep(const Survey& s, Effect& e) {
 
 void fillLocalSubsteps(const Survey& s, Effect& e) {
   const physics::Settings& settings = s.scene.settings;
-  const bool isOwn = takesSmallSteps(s);
+  const bool isOwn = s.scene.settings.takesSmallSteps();
   e.leftOut = settings.localSubsteps && (isOwn || settings.substepCount() == 1);
   e.on = settings.localSubsteps && !e.leftOut;
   e.why = !e.leftOut ? or_(s.place("simulation.local_substeps"), "local_substeps = false")

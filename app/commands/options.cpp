@@ -79,7 +79,7 @@ void addCommon(CLI::App& command, CommonOptions& options) {
 void addOverrides(CLI::App& command, CommonOptions& options) {
   command
       .add_option("--set", options.overrides,
-                  "Override a value of the scene, as --set simulation.iterations=32; repeatable")
+                  "Override a value of the scene, as --set contact.friction=0.3; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command

@@ -6,6 +6,7 @@
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/plan/plan.h"
+#include "app/run/run_record.h"
 
 namespace app {
 
@@ -20,7 +21,9 @@ struct PlanOptions {
 };
 
 ExitCode plan(const PlanOptions& options) {
-  const Plan plan = makePlan(options.common.readScene(), options.effort);
+  const scenes::Scene scene = options.common.readScene();
+  noteWarnings(scene.name, scene.told);
+  const Plan plan = makePlan(scene, options.effort);
   if (interrupted()) {
     note("dbd: interrupted; nothing was printed\n");
     return ExitCode::kInterrupted;

@@ -72,9 +72,13 @@ void countBodies(const physics::Bodies& bodies, Plan& plan) {
 
 std::string howText(const scenes::Scene& scene) {
   const physics::Settings& s = scene.settings;
-  if (s.accuracy && s.method == physics::Method::kSmallSteps) {
+  if (s.accuracy && s.takesSmallSteps()) {
     return fmt::format("{}, {} fps, accuracy {:g}: steps and orders as each island's error allows",
                        scenes::wordOf(s.method), scene.fps, *s.accuracy);
+  }
+  if (s.takesSmallSteps()) {
+    return fmt::format("{}, {} fps, {}", scenes::wordOf(s.method), scene.fps,
+                       scenes::substepsText(s));
   }
   return fmt::format("{}, {}, {} fps, {}, {} iteration{}", scenes::wordOf(s.method),
                      scenes::wordOf(s.stepping), scene.fps, scenes::substepsText(s), s.iterations,

@@ -95,8 +95,12 @@ RunRecord makeRecord(const scenes::Scene& scene) {
 std::string sceneHash(const scenes::Scene& scene) { return hashText(scenes::textOf(scene)); }
 
 void noteWarnings(const RunRecord& record) {
-  for (const std::string& warning : record.warnings) {
-    note(fmt::format("dbd: warning: {}: {}\n", record.scene.value("name", ""), warning));
+  noteWarnings(record.scene.value("name", ""), record.warnings);
+}
+
+void noteWarnings(const std::string& scene, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    note(fmt::format("dbd: warning: {}: {}\n", scene, warning));
   }
 }
 

@@ -34,6 +34,7 @@ struct RunRecord {
 RunRecord makeRecord(const scenes::Scene& scene);
 std::string sceneHash(const scenes::Scene& scene);  // of scenes::textOf, 16 hex digits
 void noteWarnings(const RunRecord& record);         // on stderr
+void noteWarnings(const std::string& scene, const std::vector<std::string>& warnings);
 Json describePicture(const render::RendererOptions& options, const render::Renderer::Info& info,
                      bool hud, const scenes::Overlays& overlays);
 // Of a frame, onto RunRecord::accuracy: asked, accepted_steps, rejected_steps, order (the highest),

@@ -318,6 +318,13 @@ void Collider::rest(std::span<const BodyId> bodies, std::span<const Pose> poses)
 }
 void Collider::wake(std::span<const BodyId> bodies) { held().pairs.wake(bodies); }
 bool Collider::canTouch() const { return impl_ && impl_->pairs.canTouch(); }
+void Collider::forgetFound() {
+  if (!impl_) return;
+  for (Watch& watch : impl_->pairs.watches()) {
+    watch.known = false;
+    watch.count = watch.more = 0;
+  }
+}
 bool Collider::hasShapes() const { return impl_ && !impl_->pairs.items().empty(); }
 void Collider::forgetShapes() {
   if (!impl_) return;

@@ -95,6 +95,7 @@ class Collider {
 
   // False: every pair is ignored, or nothing in it moves; find() has nothing to look for.
   bool canTouch() const;
+  void forgetFound();  // manifolds of earlier looks: of no point it is known that it was kept
   bool hasShapes() const;
   void forgetShapes();  // but not which pairs are ignored
 

@@ -122,7 +122,7 @@ bool stepsLocally(const Settings& settings) {
   return settings.localSubsteps && settings.leavesOut && settings.substepCount() > 1 &&
          settings.stepping != Stepping::kStatic &&
          (settings.method == Method::kNonlinearGaussSeidel || settings.method == Method::kDirect ||
-          (settings.method == Method::kSmallSteps && settings.stepping != Stepping::kPaper));
+          (settings.method == Method::kSmallSteps && !settings.takesSmallSteps()));
 }
 
 void joinAll(WorldState& w) {

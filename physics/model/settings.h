@@ -50,12 +50,16 @@ struct Settings {
   // Absent: four, but of the default method each island takes what it asks for; else no fewer.
   std::optional<int> substeps;
   int substepCount() const { return substeps.value_or(4); }
-  bool choosesSubsteps() const { return method == Method::kSmallSteps && !substeps; }
+  bool choosesSubsteps() const { return takesSmallSteps() && !substeps; }
   int iterations = 1;               // sweeps over all constraints per substep, N of Algorithm 1
   std::optional<double> tolerance;  // more of them, while one still moves a body by more [m]
   int maxIterations = 40;           // and no more than these
   Method method = Method::kSmallSteps;
   Stepping stepping = Stepping::kPaper;
+  // By another stepping the default is the paper's method.
+  bool takesSmallSteps() const {
+    return method == Method::kSmallSteps && stepping == Stepping::kPaper;
+  }
   double relaxation = 1;      // xi (53)
   double regularisation = 0;  // epsilon, alpha = epsilon * J M^-1 J^T (54)
   Regularisation regularisationForm = Regularisation::kCompliance;

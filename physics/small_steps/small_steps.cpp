@@ -50,10 +50,6 @@ std::size_t SmallSteps::bytes() const {
   return sum;
 }
 
-bool takesSmallSteps(const Model& w) {
-  return w.settings.method == Method::kSmallSteps && w.settings.stepping == Stepping::kPaper;
-}
-
 void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   substeps.resize(bodies, 1);
   sweeps.resize(bodies, 1);

@@ -52,7 +52,4 @@ class SmallSteps {
   std::unique_ptr<Impl> impl_;
 };
 
-// True where the world steps by small steps: other steppings are the non-linear sweep's.
-bool takesSmallSteps(const Model& model);
-
 }  // namespace physics

@@ -88,7 +88,7 @@ bool World::isAsleep(BodyId body) const {
 }
 
 int World::substepsOf(BodyId body) const {
-  if (takesSmallSteps(*impl_)) return impl_->small.substepsOf(body);
+  if (impl_->settings.takesSmallSteps()) return impl_->small.substepsOf(body);
   const std::vector<int>& last = impl_->local.last;
   return last.empty() ? impl_->settings.substepCount() : last[body];
 }

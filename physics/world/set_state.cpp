@@ -52,8 +52,9 @@ void findContactsHere(WorldState& w) {
   const auto& pose = w.bodies.pose;
   const double margin = w.settings.contact->margin;
   if (w.touches) {
+    w.collider.forgetFound();
     const auto found = w.collider.find(pose, pose, margin);
-    if (takesSmallSteps(w)) {
+    if (w.settings.takesSmallSteps()) {
       w.small.contacts().clear();
       std::vector<KeptContact> none;
       keep(w.collider.found(), w.bodies, w.workers, w.small.contacts(), none);

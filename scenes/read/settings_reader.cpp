@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "scenes/measure/metrics.h"
 
@@ -20,6 +21,29 @@ constexpr const char* kSteppings[] = {"paper", "static", "bdf2", "symmetric"};
 constexpr const char* kRegularisations[] = {"compliance", "damping"};
 constexpr const char* kInertias[] = {"plain", "spinning"};
 constexpr const char* kRefreshes[] = {"substep", "iteration"};
+
+// Of what was asked for, what the method does not look at.
+void tellUnused(const TableReader& reader, Scene& scene) {
+  const physics::Settings& settings = scene.settings;
+  std::vector<std::string> words;
+  if (settings.takesSmallSteps()) {
+    for (const char* word :
+         {"iterations", "max_iterations", "tolerance", "penalty_stiffness", "relaxation", "inertia",
+          "inertia_refresh", "local_substeps", "local_tolerance"}) {
+      if (reader.has(word)) words.emplace_back(word);
+    }
+  } else if (reader.has("accuracy")) {
+    words.emplace_back("accuracy");
+  }
+  if (words.empty()) return;
+  const bool isMethod =
+      settings.takesSmallSteps() || settings.method != physics::Method::kSmallSteps;
+  scene.told.push_back(fmt::format(
+      "simulation: {} change{} nothing: {} = \"{}\" does not look at {}", fmt::join(words, ", "),
+      words.size() == 1 ? "s" : "", isMethod ? "method" : "stepping",
+      isMethod ? wordOf(settings.method) : wordOf(settings.stepping),
+      words.size() == 1 ? "it" : "them"));
+}
 
 void readSimulation(TableReader& reader, Scene& scene) {
   physics::Settings& settings = scene.settings;
@@ -44,6 +68,7 @@ void readSimulation(TableReader& reader, Scene& scene) {
       reader.choose("regularisation_form", kRegularisations, 0));
   settings.spinInertia = reader.choose("inertia", kInertias, 0) == 1;
   settings.refreshInertia = reader.choose("inertia_refresh", kRefreshes, 1) == 1;
+  tellUnused(reader, scene);
 }
 
 void readContact(TableReader& reader, physics::Settings& settings) {
@@ -122,6 +147,11 @@ void readGolden(TableReader& reader, const Scene& scene, GoldenDef& golden) {
   reader(Field{"height", Unit::kNone, false, 16, 8192}, golden.height);
   reader(Field{"hud"}, golden.hud);
   reader(Field{"state_hash"}, golden.stateHash);
+  const auto isHex = [](char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; };
+  const std::string& hash = golden.stateHash;
+  if (!hash.empty() && (hash.size() != 16 || !std::all_of(hash.begin(), hash.end(), isHex))) {
+    reader.failAt("state_hash", "expected 16 hex digits, as dbd simulate --hash prints them");
+  }
   if (golden.frames.empty()) reader.failAt("frames", "expected at least one frame");
   for (size_t i = 0; i < golden.frames.size(); ++i) {
     if (i > 0 && golden.frames[i] <= golden.frames[i - 1]) {
@@ -146,6 +176,11 @@ void readExpectation(TableReader& reader, Scene& scene) {
   reader(Field{"to", Unit::kNone, false, 0}, expectation.to);
   if (!expectation.atMost && !expectation.atLeast && expectation.metric != "finite") {
     reader.failHere("expected 'at_most' or 'at_least'");
+  }
+  if (expectation.atMost && expectation.atLeast && *expectation.atMost < *expectation.atLeast) {
+    reader.failAt("at_most",
+                  fmt::format("expected a number >= at_least = {}, or nothing can be both",
+                              *expectation.atLeast));
   }
   const double end = expectation.to.value_or(scene.overrides.empty() ? scene.duration : 1e300);
   if (expectation.from.value_or(0) > end) {

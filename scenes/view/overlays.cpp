@@ -117,6 +117,7 @@ void addStepRows(const Scene& scene, render::Hud& hud) {
     return;
   }
   hud.rows.push_back({"substeps", fmt::format("{}", scene.settings.substepCount())});
+  if (scene.settings.takesSmallSteps()) return;
   hud.rows.push_back({"iterations", fmt::format("{} per substep", scene.settings.iterations)});
 }
 

@@ -183,6 +183,44 @@ TEST(SetState, LeavesNothingOfEarlierStepsByAnAccuracy) {
   expectNothingIsLeft(settings);
 }
 
+// A can that stands on a block touches with all of its rim, of which a manifold has four points:
+// which ones was told by where it leant before.
+TEST(SetState, LeavesNoContactsOfEarlierPoses) {
+  Settings settings;
+  settings.contact = ContactSettings{};
+  const auto make = [&settings] {
+    World world(settings);
+    BodyDef block, can;
+    block.shape = Box{Vec3(2, 1, 2)};
+    block.motion = Motion::kStatic;
+    can.shape = Cylinder{0.5, 1};
+    can.pose.x.y() = 1;
+    can.mass = 1;
+    world.add(block);
+    world.add(can);
+    return world;
+  };
+  const auto pointsOf = [](const World& world) {
+    std::vector<Vec3> points;
+    for (const ContactReport& contact : world.contacts()) points.push_back(contact.point);
+    return points;
+  };
+  World fresh = make();
+  const State upright = stateOf(fresh);
+  ASSERT_TRUE(fresh.setState(upright.pose, upright.velocity));
+  const std::vector<Vec3> expected = pointsOf(fresh);
+  ASSERT_EQ(expected.size(), 4u);
+  for (int k = 0; k < 8; ++k) {
+    World world = make();
+    State leaning = upright;
+    const Vec3 axis(std::cos(k * kPi / 8), 0, std::sin(k * kPi / 8));
+    leaning.pose[2].q = Quat(Eigen::AngleAxisd(2e-3, axis));
+    ASSERT_TRUE(world.setState(leaning.pose, leaning.velocity));
+    ASSERT_TRUE(world.setState(upright.pose, upright.velocity));
+    EXPECT_EQ(pointsOf(world), expected) << k;
+  }
+}
+
 TEST(SetState, RefusesWhatIsNotFiniteAndChangesNothing) {
   World world = makeBalls();
   const State before = stateOf(world);

@@ -143,5 +143,37 @@ TEST(Scene, NamesTheNearestSceneForAnUnknownOne) {
   }
 }
 
+TEST(SceneExpect, RefusesBoundsThatNothingCanKeep) {
+  EXPECT_EQ(errorOf(ball("a") + "[[expect]]\nmetric = \"overlap\"\nat_least = 2\nat_most = 1\n"),
+            "test.toml:7:11: expect.at_most: expected a number >= at_least = 2, or nothing can be "
+            "both");
+}
+
+TEST(SceneGolden, RefusesAHashThatIsNone) {
+  for (const char* hash : {"0123456789abcde", "0123456789abcdefa", "0123456789abcdeg"}) {
+    const std::string error =
+        errorOf(ball("a") + "[golden]\nframes = [0]\nstate_hash = \"" + hash + "\"\n");
+    EXPECT_NE(error.find("golden.state_hash: expected 16 hex digits"), std::string::npos) << error;
+  }
+}
+
+TEST(SceneSimulation, TellsWhatTheMethodDoesNotLookAt) {
+  const auto toldOf = [](const std::string& words) {
+    const Scene scene = sceneOf(ball("a") + "[simulation]\n" + words);
+    return scene.told.empty() ? std::string() : scene.told.back();
+  };
+  EXPECT_EQ(toldOf("substeps = 4\naccuracy = 1e-2\nregularisation = 1e-3\n"), "");
+  EXPECT_EQ(toldOf("iterations = 8\n"),
+            "simulation: iterations changes nothing: method = \"small_steps\" does not look at it");
+  EXPECT_EQ(toldOf("tolerance = 1e-6\nrelaxation = 1.2\n"),
+            "simulation: tolerance, relaxation change nothing: method = \"small_steps\" does not "
+            "look at them");
+  EXPECT_EQ(toldOf("stepping = \"bdf2\"\niterations = 8\n"), "");
+  EXPECT_EQ(toldOf("stepping = \"bdf2\"\naccuracy = 1e-3\n"),
+            "simulation: accuracy changes nothing: stepping = \"bdf2\" does not look at it");
+  EXPECT_EQ(toldOf("method = \"xpbd\"\naccuracy = 1e-3\n"),
+            "simulation: accuracy changes nothing: method = \"xpbd\" does not look at it");
+}
+
 }  // namespace
 }  // namespace scenes
