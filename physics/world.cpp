@@ -83,7 +83,8 @@ StepReport World::step() {
   const Collider::Counts before = w.collider.counts();
   StepReport report;
   begin(w, report);
-  if (!report.notFinite) w.settings.takesSmallSteps() ? smallSteps(w, report) : sweepSteps(w, report);
+  if (!report.notFinite)
+    w.settings.takesSmallSteps() ? smallSteps(w, report) : sweepSteps(w, report);
   end(w, report);
   countLooks(before, w.collider.counts(), report);
   return report;

@@ -20,7 +20,7 @@ bool FigureRecord::holds() const {
 namespace {
 
 std::string methodText(const physics::Settings& settings) {
-  if (settings.method == physics::Method::kSmallSteps) return "the default, small steps";
+  if (settings.takesSmallSteps()) return "the default, small steps";
   return std::string(scenes::wordOf(settings.method)) + ", stepping " +
          scenes::wordOf(settings.stepping);
 }

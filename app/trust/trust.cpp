@@ -20,12 +20,7 @@ constexpr double kFiner = 10, kChosenAccuracy = 1e-2, kLeastAccuracy = 1e-11;
 // What the scene has that no accuracy steps all the time; empty: nothing.
 std::string notByAccuracy(const scenes::Scene& scene) {
   const physics::Settings& settings = scene.settings;
-  if (settings.method != physics::Method::kSmallSteps) {
-    return fmt::format("method = \"{}\"", scenes::wordOf(settings.method));
-  }
-  if (settings.stepping != physics::Stepping::kPaper) {
-    return fmt::format("stepping = \"{}\"", scenes::wordOf(settings.stepping));
-  }
+  if (!settings.takesSmallSteps()) return scenes::solverText(settings);
   const scenes::Simulation start(scene);
   const auto& isSoft = start.world().bodies().isSoft;
   if (std::find(isSoft.begin(), isSoft.end(), true) != isSoft.end())

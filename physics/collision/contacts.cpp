@@ -164,21 +164,34 @@ LinePoints closestPoints(const Line& a, const Line& b) {
   return {a.from + s * d1, b.from + t * d2};
 }
 
-void touchFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owner, int index,
-                Contacts& contacts) {
-  Patch flat, other;
-  Facet plane = facet(owner == Owner::a ? a : b, index);
+Facet facetInB(const Solid& a, const Solid& b, const Relative& pose, Owner owner, int index) {
+  if (owner == Owner::b) return facet(b, index);
+  Facet plane = facet(a, index);
+  plane.normal = pose.R * plane.normal;
+  plane.offset += plane.normal.dot(pose.t);
+  return plane;
+}
+
+void layOnFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owner, int index,
+                const Vec3& outwards, double tolerance, Patch& other) {
+  Patch flat;
   facetPatch(owner == Owner::a ? a : b, index, flat);
   if (owner == Owner::a) {
     transform(flat, pose);
-    plane.normal = pose.R * plane.normal;
-    plane.offset += plane.normal.dot(pose.t);
-    facing(b, -plane.normal, other);
+    facing(b, -outwards, other);
   } else {
-    facing(a, -(pose.R.transpose() * plane.normal), other);
+    facing(a, -(pose.R.transpose() * outwards), other);
     transform(other, pose);
   }
-  clip(other, flat, plane.normal, kSideTolerance * std::min(a.size, b.size));
+  clip(other, flat, outwards, tolerance);
+}
+
+void touchFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owner, int index,
+                Contacts& contacts) {
+  const Facet plane = facetInB(a, b, pose, owner, index);
+  Patch other;
+  layOnFacet(a, b, pose, owner, index, plane.normal, kSideTolerance * std::min(a.size, b.size),
+             other);
   contacts.n = owner == Owner::a ? Vec3(-plane.normal) : plane.normal;
   contacts.radiusA = owner == Owner::a ? 0 : other.radius;
   contacts.radiusB = owner == Owner::a ? other.radius : 0;

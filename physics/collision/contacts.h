@@ -44,14 +44,19 @@ LinePoints closestPoints(const Line& a, const Line& b);
 // How far two points lie beside each other, seen along n.
 double offset(const Vec3& n, const Vec3& apart);
 
-// Clips what the other solid turns towards facet `index` of the owner by the side planes of the
-// facet.
+// Facet `index` of the owner, in b's frame, and what the other solid turns towards `outwards`, cut
+// by the side planes of the facet along that: moved outwards by `tolerance` [m].
+Facet facetInB(const Solid& a, const Solid& b, const Relative& pose, Owner owner, int index);
+void layOnFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owner, int index,
+                const Vec3& outwards, double tolerance, Patch& other);
+
+// That as a touch, along the facet's normal.
 void touchFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owner, int index,
                 Contacts& contacts);
 
 // Where two segments are closest and, of what is round, where they part: lines that turn a little
-// meet there next. Of segments no more than `flatness` beside each other where they part, only that.
-// n and the radii are set.
+// meet there next. Of segments no more than `flatness` beside each other where they part, only
+// that. n and the radii are set.
 void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flatness,
                 Contacts& contacts);
 

@@ -39,33 +39,20 @@ void addFacing(const Solid& a, const Solid& b, const Relative& pose, Contacts& c
   const double size = smallerSize(a, b);
   Owner owner = Owner::b;
   int index = -1;
-  Facet face;
   double cosine = kFacing;
   const auto offer = [&](Owner of, const Solid& solid, const Vec3& along) {
     if (!solid.isPolyhedron()) return;
     const int nearest = nearestFace(solid, along);
-    const Facet there = facet(solid, nearest);
-    const double here = there.normal.dot(along);
-    if (here > cosine) owner = of, index = nearest, face = there, cosine = here;
+    const double here = facet(solid, nearest).normal.dot(along);
+    if (here > cosine) owner = of, index = nearest, cosine = here;
   };
-  const Vec3 toB = -(pose.R.transpose() * n);
   offer(Owner::b, b, n);
-  offer(Owner::a, a, toB);
+  offer(Owner::a, a, -(pose.R.transpose() * n));
   if (index < 0) return;
-  Patch flat, other;
-  if (owner == Owner::a) {
-    facetPatch(a, index, flat);
-    transform(flat, pose);
-    face.normal = pose.R * face.normal;
-    face.offset += face.normal.dot(pose.t);
-    facing(b, n, other);
-    clip(other, flat, -n, -kSideTolerance * size);
-  } else {
-    facetPatch(b, index, flat);
-    facing(a, toB, other);
-    transform(other, pose);
-    clip(other, flat, n, -kSideTolerance * size);
-  }
+  const Facet face = facetInB(a, b, pose, owner, index);
+  const Vec3 outwards = owner == Owner::a ? Vec3(-n) : n;
+  Patch other;
+  layOnFacet(a, b, pose, owner, index, outwards, -kSideTolerance * size, other);
   for (int i = 0; i < other.count && contacts.count < Patch::kRoom; ++i) {
     const Vec3& p = other.corners[i].p;
     bool isKnown = false;
@@ -75,11 +62,8 @@ void addFacing(const Solid& a, const Solid& b, const Relative& pose, Contacts& c
     if (isKnown) continue;
     const double height = (face.normal.dot(p) - face.offset) / cosine;
     const std::uint32_t feature = facetFeature(owner, index, other.corners[i].id);
-    if (owner == Owner::a) {
-      contacts.add(p + height * n, p, feature);
-    } else {
-      contacts.add(p, p - height * n, feature);
-    }
+    const Vec3 onFace = p - height * outwards;
+    contacts.add(owner == Owner::a ? onFace : p, owner == Owner::a ? p : onFace, feature);
   }
 }
 

@@ -448,9 +448,8 @@ struct SmallSteps::Impl {
   void takeTurns(Model& w, Batch& batch, const JointStage& stage);
   void addWork(const Model& w, const Batch& batch, std::vector<double>& work);
   bool findRise(Model& w, Batch& batch);
-  bool confirmRise(Model& w, Batch& batch, const JointStage& stage);
+  void holdPredicted(Batch& batch, const JointStage& stage);
   void swapPredicted(const Batch& batch);
-  bool findShares(const Batch& batch);
   void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares);
   void forgetLoads(Model& w, Batch& batch);
   void boundWork(Model& w, Batch& batch, const JointStage& stage);

@@ -85,9 +85,9 @@ void SmallSteps::Impl::addWork(const Model& w, const Batch& batch, std::vector<d
 }
 
 // Contacts and friction give lambda^T J (u0 + u1) / 2 of energy, from what was predicted to what
-// the velocity stage ends with. Where that is more than nothing, `change` is the share of lambda
-// which is too much: with s lambda it is s lambda^T J u0 + s^2 lambda^T J (u1 - u0) / 2. True:
-// there is some.
+// the velocity stage ends with. Where that is more than nothing, `change` becomes the share of
+// lambda which is too much, if that is less than it was: with s lambda it is s lambda^T J u0 +
+// s^2 lambda^T J (u1 - u0) / 2. Of islands, by their first body. True: there is some.
 bool SmallSteps::Impl::findRise(Model& w, Batch& batch) {
   swapPredicted(batch);
   toLanes(w, batch);
@@ -95,30 +95,6 @@ bool SmallSteps::Impl::findRise(Model& w, Batch& batch) {
   swapPredicted(batch);
   toLanes(w, batch);
   addWork(w, batch, carried);
-  for (const BodyId i : batch.bodies) change[i] = 1;
-  return findShares(batch);
-}
-
-// And no more than by the same of what joints alone make of what was predicted: of planks that hang
-// and crates that stand on them both fall in one as in the other, and what parts them by the least
-// would be all that contacts do.
-bool SmallSteps::Impl::confirmRise(Model& w, Batch& batch, const JointStage& stage) {
-  for (const BodyId i : batch.bodies) change[i] = change[islands[i]];
-  swapPredicted(batch);
-  batch.joints.holdVelocities(stage, change);
-  toLanes(w, batch);
-  addWork(w, batch, load);
-  swapPredicted(batch);
-  toLanes(w, batch);
-  return findShares(batch);
-}
-
-void SmallSteps::Impl::swapPredicted(const Batch& batch) {
-  for (const BodyId i : batch.bodies) std::swap(moved[i], predicted[i]);
-}
-
-// Of islands, by their first body: no more than `change` was.
-bool SmallSteps::Impl::findShares(const Batch& batch) {
   bool some = false;
   for (const BodyId i : batch.bodies) {
     const double before = load[i], more = carried[i] - load[i];
@@ -127,6 +103,20 @@ bool SmallSteps::Impl::findShares(const Batch& batch) {
     some = some || change[i] > 0;
   }
   return some;
+}
+
+// Of islands with a share, what joints alone make of what was predicted: planks that hang and
+// crates that stand on them fall alike without, and what parts them by the least would be all that
+// contacts do.
+void SmallSteps::Impl::holdPredicted(Batch& batch, const JointStage& stage) {
+  for (const BodyId i : batch.bodies) change[i] = change[islands[i]];
+  swapPredicted(batch);
+  batch.joints.holdVelocities(stage, change);
+  swapPredicted(batch);
+}
+
+void SmallSteps::Impl::swapPredicted(const Batch& batch) {
+  for (const BodyId i : batch.bodies) std::swap(moved[i], predicted[i]);
 }
 
 // These shares of what the lanes of a block carry, from it and from its bodies.
@@ -166,7 +156,10 @@ void SmallSteps::Impl::forgetLoads(Model& w, Batch& batch) {
 // most of what it was given: what a hit leaves behind would throw figures. Joints of the other
 // islands stay as they are.
 void SmallSteps::Impl::boundWork(Model& w, Batch& batch, const JointStage& stage) {
-  if (!findRise(w, batch) || !confirmRise(w, batch, stage)) return;
+  for (const BodyId i : batch.bodies) change[i] = 1;
+  if (!findRise(w, batch)) return;
+  holdPredicted(batch, stage);
+  if (!findRise(w, batch)) return;
   for (ContactBlock& block : batch.blocks) {
     LaneNumbers shares;
     bool some = false;

@@ -36,13 +36,10 @@ void tellUnused(const TableReader& reader, Scene& scene) {
     words.emplace_back("accuracy");
   }
   if (words.empty()) return;
-  const bool isMethod =
-      settings.takesSmallSteps() || settings.method != physics::Method::kSmallSteps;
-  scene.told.push_back(fmt::format(
-      "simulation: {} change{} nothing: {} = \"{}\" does not look at {}", fmt::join(words, ", "),
-      words.size() == 1 ? "s" : "", isMethod ? "method" : "stepping",
-      isMethod ? wordOf(settings.method) : wordOf(settings.stepping),
-      words.size() == 1 ? "it" : "them"));
+  const bool isOne = words.size() == 1;
+  scene.told.push_back(fmt::format("simulation: {} change{} nothing: {} does not look at {}",
+                                   fmt::join(words, ", "), isOne ? "s" : "", solverText(settings),
+                                   isOne ? "it" : "them"));
 }
 
 void readSimulation(TableReader& reader, Scene& scene) {
@@ -193,6 +190,12 @@ void readExpectation(TableReader& reader, Scene& scene) {
 
 const char* wordOf(physics::Method method) { return kMethods[static_cast<int>(method)]; }
 const char* wordOf(physics::Stepping stepping) { return kSteppings[static_cast<int>(stepping)]; }
+
+std::string solverText(const physics::Settings& s) {
+  const bool isStepping = s.method == physics::Method::kSmallSteps && !s.takesSmallSteps();
+  return isStepping ? fmt::format("stepping = \"{}\"", wordOf(s.stepping))
+                    : fmt::format("method = \"{}\"", wordOf(s.method));
+}
 
 std::string substepsText(const physics::Settings& s) {
   if (s.choosesSubsteps()) return "substeps as each island asks";

@@ -13,6 +13,8 @@ void readSettings(TableReader& root, Scene& scene);
 
 const char* wordOf(physics::Method method);  // as [simulation] has it
 const char* wordOf(physics::Stepping stepping);
+// `method = "xpbd"`; of the default by another stepping than its own, that.
+std::string solverText(const physics::Settings& settings);
 std::string substepsText(const physics::Settings& settings);  // as a reader is told them
 
 // [film]: how long a step of the simulation is.
