@@ -16,7 +16,8 @@ constexpr double kLargestSag = 2.5e-4, kLargestSagOfWay = 1.0 / kLeastSwept;
 // over (n/2)^2, n/2 being how often the contacts carry the weight of an island: a quarter of it,
 // and never less than what a column of a hundred just bears (1.5e-4), nor does anything less show.
 // Of what springs are drawn by from the start that alone counts, in the root mean square: what
-// stands on one that is much smaller falls by that one's springs.
+// stands on one that is much smaller falls by that one's springs. So does what stands on jointed
+// legs, one body high: of contacts that see joints, which hold what they carry, nothing else does.
 constexpr double kLargestOfColumn = 0.1, kLeastSag = 1.25e-4;
 // What the last velocity sweep may change, of the energy that an island has in g h^2, so that what
 // stands comes to rest, and of that in motion of what touches past each other: the way of that is
@@ -86,8 +87,9 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const Batch& b
   const Softness law = softnessOf(b, batch, c);
   const double soft = (1 - law.scale) / (law.scale * law.rate);
   const double size = std::min(radius[c.a], radius[c.b]);
-  if (!(size > 0) || (isJointed(c) && !batch.isAtOnce)) return of;
-  of.way = sagOfWay(w, c, size);
+  const bool isOfJoints = isJointed(c) && !batch.isAtOnce;
+  if (!(size > 0) || (isOfJoints && !meetsResponse(c))) return of;
+  of.way = isOfJoints ? kLargestOfColumn : sagOfWay(w, c, size);
   of.seen = kLeastSag;
   if (!w.settings.accuracy) {  // more would show in what is asked for
     const double thinner = std::min(thickness[c.a], thickness[c.b]);

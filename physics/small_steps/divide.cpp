@@ -192,7 +192,8 @@ int SmallSteps::Impl::leastOf(const Model& w, BodyId i) const {
   if (isPoint || deformableOf[i] >= 0) return kLeastSwept;
   // A step that knows what it errs by needs no more for safety.
   if (w.settings.accuracy && choices[root].resolves()) return 1;
-  const bool isSwept = held[root] == Held::kTouching && joined[root] != Joined::kTakesTurns;
+  const bool isTouching = held[root] == Held::kTouching;
+  const bool isSwept = isTouching && (joined[root] == Joined::kNot || atOnce[root]);
   return isSwept ? kLeastSwept : kLeastSolved;
 }
 

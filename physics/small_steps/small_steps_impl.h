@@ -69,10 +69,10 @@ struct KeptStart {
 // What pays for being dealt to threads.
 constexpr int kLeastBodies = 64, kLeastContacts = 128, kLeastBlocks = 32;
 
-// Substeps at the least, where settings say nothing. Contacts that take no turns with joints are
-// swept once in each, and ropes and meshes are not done after one either; joints are solved in
-// each, with contacts in four turns: they need no more than two halves of a step with a look
-// between.
+// Substeps at the least, where settings say nothing. Where no joint is, contacts are swept once in
+// each, and ropes and meshes are not done after one either; what is light is pressed down for a
+// substep before loads that are found at once hold it. Joints are solved in each, with contacts
+// swept four times: they need no more than two halves of a step with a look between.
 constexpr int kLeastSwept = 4, kLeastSolved = 2, kMostSubsteps = 64;
 
 // Of its weight, what a body may carry while sweeps of its own mass, or turns with joints, find it.
@@ -87,7 +87,7 @@ constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps o
 
 constexpr int kByItself = -2;  // of a body's batch: its island has stepped, by an accuracy
 
-// Of what is swept: of ropes, of contacts in turns with joints, and of contacts about deep
+// Of what is swept: of ropes, of contacts in islands with joints, and of contacts about deep
 // overlaps, where a push finds its way through a column of five in that many.
 constexpr int kPositionSweeps = 4;
 

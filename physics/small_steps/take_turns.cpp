@@ -60,9 +60,10 @@ void SmallSteps::Impl::solveContactPositions(Model& w, Batch& batch, const Joint
   warmStartContacts(w, batch);
   PositionSweep which;
   solvePositionsAtOnce(batch, which);
-  const int sweeps = batch.isDeep ? kPositionSweeps : 1;
+  const bool isJointed = batch.joined != Joined::kNot;
+  const int sweeps = batch.isDeep || isJointed ? kPositionSweeps : 1;
   for (int s = 0; s < sweeps; ++s) {
-    which.onlyDeep = s > 0;
+    which.onlyDeep = s > 0 && !isJointed;
     sweepContactPositions(w, batch, which);
   }
   if (batch.isMixed()) fromLanes(w, batch);

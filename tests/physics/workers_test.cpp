@@ -37,7 +37,7 @@ struct Heap {
   std::size_t leastPoints;
 };
 constexpr Heap kFew = {6, 100, 0};
-constexpr Heap kMany = {34, 20, std::size_t{4} * 8192};  // contacts of four points, in four parts
+constexpr Heap kMany = {36, 20, std::size_t{4} * 8192};  // contacts of four points, in four parts
 
 std::uint64_t hashOf(const Heap& heap, int threads, bool jointed) {
   Settings settings;
