@@ -33,9 +33,10 @@ double approach(const Item& a, const Item& b, const Vec3& n) {
   return std::max(0.0, -n.dot(a.move - b.move)) + a.turn + b.turn;
 }
 
-// What hits may add to that. Between two that move it is found in the next step.
+// What hits may add to that. Of two that move, what hits alone do is found in the next step.
 double pushOf(const Item& a, const Item& b) {
-  return a.movable && b.movable ? 0 : std::max(a.push, b.push);
+  const double byJoints = std::max(a.push.byJoints, b.push.byJoints);
+  return a.movable && b.movable ? byJoints : std::max({a.push.alone, b.push.alone, byJoints});
 }
 
 // The same in any direction; towards a plane there is but one.
@@ -257,7 +258,7 @@ std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<
 }
 
 std::span<const Found> Collider::look(std::span<const Pose> start, std::span<const Pose> end,
-                                      double margin, std::span<const double> push,
+                                      double margin, std::span<const HitPush> push,
                                       Workers& workers) {
   constexpr int kLeastPairs = 64;  // of a thread
   require(margin >= 0, "collider: margin must not be negative");

@@ -40,6 +40,12 @@ struct Manifold {
   std::array<ContactPoint, kMaxPoints> points;
 };
 
+// How much further than it is about to go hits may take a body [m]: what does not move is looked
+// for that far around it; and, as far as joints pass them on, all else.
+struct HitPush {
+  double alone = 0, byJoints = 0;
+};
+
 // A manifold where the collider keeps it. Not new: as the last look told it.
 struct Found {
   const Manifold* manifold = nullptr;
@@ -71,10 +77,10 @@ class Collider {
                                  double margin);
 
   // The same by all `workers`, where the collider keeps it: what is found of a pair depends on no
-  // other. `push` [m], by BodyId or empty: how much further than to `end` a hit may take a body;
-  // what does not move is looked for that far around it.
+  // other. `push` [m], by BodyId or empty: how much further than to `end` hits may take a
+  // body.
   std::span<const Found> look(std::span<const Pose> start, std::span<const Pose> end, double margin,
-                              std::span<const double> push, Workers& workers);
+                              std::span<const HitPush> push, Workers& workers);
   std::span<const Found> found() const;  // by the last look
 
   // The manifold of a pair that a look found, at these poses of its two bodies: the points whose

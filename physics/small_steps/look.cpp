@@ -10,7 +10,7 @@ namespace physics {
 
 namespace {
 
-std::span<const Found> findContacts(Model& w, std::span<const double> push = {}) {
+std::span<const Found> findContacts(Model& w, std::span<const HitPush> push = {}) {
   return w.collider.look(w.bodies.pose, w.ahead, w.settings.contact->margin, push, w.workers);
 }
 
@@ -34,13 +34,18 @@ bool SmallSteps::Impl::goesFar(const Model& w, const KeptContact& c) const {
 
 // By body: how much further hits may take it than it is about to go, which is with what hits it;
 // and on with that to what it touches, as far as the pushes of a substep reach. Of what goes less
-// far nothing is to be known. False: there is no more.
+// far nothing is to be known. What hits any of an articulation may fling all of it, whatever it
+// meets: limbs turn about what has been stopped. False: there is no more.
 bool SmallSteps::Impl::findPushes(Model& w) {
   const Bodies& b = w.bodies;
+  const auto isPushed = [&](const KeptContact& c) {
+    return isMovable(b, c.a) && isMovable(b, c.b);
+  };
   const auto mayPush = [&](const KeptContact& c) {
-    return isMovable(b, c.a) && isMovable(b, c.b) && goesFar(w, c);
+    return (isPushed(c) || isJointed(c)) && goesFar(w, c);
   };
   std::fill(pushed.begin(), pushed.end(), Vec3::Zero());
+  flung.assign(articulations.size(), 0);
   std::atomic<bool> any = false;
   w.workers.forEachChunk(static_cast<int>(contacts.size()), kLeastContacts, [&](int from, int to) {
     if (std::any_of(contacts.begin() + from, contacts.begin() + to, mayPush)) any = true;
@@ -53,13 +58,22 @@ bool SmallSteps::Impl::findPushes(Model& w) {
       const Vec3 n = normalOf(c, b.pose);
       const double closing = n.dot(wayInStep(w, c));
       if (!(closing > ownSide(c))) continue;
+      some = true;
+      for (const BodyId i : {c.a, c.b}) {
+        const int articulation = articulationOf[i];
+        if (articulation >= 0) flung[articulation] = std::max(flung[articulation], closing);
+      }
+      if (!isPushed(c)) continue;
       pushed[c.a] += closing * n;
       pushed[c.b] -= closing * n;
-      some = more = true;
+      more = true;
     }
   }
   if (!some) return false;
-  for (std::size_t i = 0; i < pushed.size(); ++i) push[i] = pushed[i].norm();
+  for (std::size_t i = 0; i < pushed.size(); ++i) {
+    const int articulation = articulationOf[i];
+    push[i] = {pushed[i].norm(), articulation >= 0 ? flung[articulation] : 0};
+  }
   return true;
 }
 

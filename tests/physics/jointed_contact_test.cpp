@@ -103,6 +103,29 @@ TEST(JointedContact, LightFeetUnderAHeavyBodyRestAtTenStepsASecond) {
   EXPECT_LT(most, 0.05);
 }
 
+// An arm over a body, both of which fall alike. Where the body is stopped the arm goes on, about
+// its joint, and reaches the body within that step.
+TEST(JointedContact, AnArmThatAHitFlingsMeetsItsOwnBody) {
+  Settings s = touching();
+  s.gravity = Vec3(0, -9.81, 0);
+  World world(s);
+  addFloor(world);
+  const BodyId body = addBlock(world, Vec3(1, 0.1, 0.5), Vec3(0, 0.07, 0), 20);
+  const BodyId post = addBlock(world, Vec3(0.1, 0.4, 0.1), Vec3(-0.45, 0.32, 0), 1);
+  const BodyId arm = addBlock(world, Vec3(0.8, 0.06, 0.06), Vec3(0, 0.25, 0), 1);
+  for (const double x : {-0.5, -0.4}) {
+    for (const double z : {-0.05, 0.05}) join(world, body, post, Vec3(x, 0.12, z));
+  }
+  join(world, post, arm, Vec3(-0.4, 0.25, 0));
+  for (const BodyId i : {body, post, arm}) world.setVelocity(i, {Vec3(0, -20, 0), Vec3::Zero()});
+  double most = 0;
+  for (int k = 0; k < 30; ++k) {
+    ASSERT_FALSE(world.step().notFinite);
+    most = std::max(most, world.largestOverlap());
+  }
+  EXPECT_LT(most, 1e-3);
+}
+
 // A hand of 0.45 kg at an arm, and 100 kg on it: by its own mass it would give way by 7 mm or more.
 struct LoadedHand {
   World world;
