@@ -40,8 +40,8 @@ struct Manifold {
   std::array<ContactPoint, kMaxPoints> points;
 };
 
-// How much further than it is about to go hits may take a body [m]: what does not move is looked
-// for that far around it; and, as far as joints pass them on, all else.
+// How much further than it is about to go hits may take a body [m]: those of its own, by which what
+// does not move is looked for; those that its joints pass on, by which all is.
 struct HitPush {
   double alone = 0, byJoints = 0;
 };
@@ -77,8 +77,8 @@ class Collider {
                                  double margin);
 
   // The same by all `workers`, where the collider keeps it: what is found of a pair depends on no
-  // other. `push` [m], by BodyId or empty: how much further than to `end` hits may take a
-  // body.
+  // other. `push`, by BodyId or empty: further than to `end`. What bodies may meet by that is told
+  // as if they approached each other by so much more.
   std::span<const Found> look(std::span<const Pose> start, std::span<const Pose> end, double margin,
                               std::span<const HitPush> push, Workers& workers);
   std::span<const Found> found() const;  // by the last look

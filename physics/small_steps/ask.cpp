@@ -16,8 +16,9 @@ constexpr double kLargestSag = 2.5e-4, kLargestSagOfWay = 1.0 / kLeastSwept;
 // over (n/2)^2, n/2 being how often the contacts carry the weight of an island: a quarter of it,
 // and never less than what a column of a hundred just bears (1.5e-4), nor does anything less show.
 // Of what springs are drawn by from the start that alone counts, in the root mean square: what
-// stands on one that is much smaller falls by that one's springs. So does what stands on jointed
-// legs, one body high: of contacts that see joints, which hold what they carry, nothing else does.
+// stands on one that is much smaller falls by that one's springs. Contacts that see joints hold
+// what they carry, and may give way by what a column of one body bears: what stands on legs falls,
+// too.
 constexpr double kLargestOfColumn = 0.1, kLeastSag = 1.25e-4;
 // What the last velocity sweep may change, of the energy that an island has in g h^2, so that what
 // stands comes to rest, and of that in motion of what touches past each other: the way of that is
