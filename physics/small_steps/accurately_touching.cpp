@@ -287,14 +287,17 @@ double SmallSteps::Impl::errorOfOneRow(const Model& w, const Trial& trial) const
 
 // What moves by less than a step may err by errs by less, whatever its substeps; and where one row
 // errs by less than contacts know, further ones tell nothing. Contacts are to stand where they
-// touch, or the row's substeps tell how deep they are.
+// touch, or the row's substeps tell how deep they are: unless they carry next to nothing.
 bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
   if (trial.needsMore || trial.hits) return false;
   const Batch& batch = batches[trial.batch];
   const bool isExact = oneRowErrs[batch.bodies.front()] <= kKnown;
   if (!isExact && !(wayOf(w, trial) <= trial.allowed)) return false;
   const auto stands = [&](int contact) {
-    return !contacts[contact].isLoaded() || contacts[contact].isHeld();
+    const KeptContact& c = contacts[contact];
+    const double load = std::accumulate(c.lambda.begin(), c.lambda.end(), 0.0);
+    const double way = load * (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
+    return c.isHeld() || way <= kKnown * trial.extent;
   };
   return std::all_of(batch.contacts.begin(), batch.contacts.end(), stands);
 }

@@ -507,18 +507,23 @@ struct SmallSteps::Impl {
   void learnLoads(Model& w);
   void tell(const Model& w) const;
   void countParts(const Batch& batch, std::map<BodyId, IslandPlan>& plans) const;
+  void learnNormalLoads(Batch& batch);
   void learnLoads(Model& w, Batch& batch);
   template <typename Visit>
   void forEachLane(const Model& w, Batch& batch, Visit&& visit);
   bool isBalanced(const Model& w, Batch& batch, int sweeps);
   const std::function<void()>* wake = nullptr;  // of the present step
-  bool fresh = true;          // nothing has stepped yet, or the state came from elsewhere
-  bool learning = false;      // what contacts carry: they do not give way, nor push
-  std::vector<char> settled;  // then: an island's loads, by its first body
-  struct LoadRound {          // then, by block: what it carried at the last look, and changed by
+  bool fresh = true;      // nothing has stepped yet, or the state came from elsewhere
+  bool learning = false;  // what contacts carry: they do not give way, nor push
+  struct LoadRound {      // then, by block: what it carried at the last look, and changed by
     ContactLoads told, change;
   };
   std::vector<LoadRound> learnt;
+  struct IslandRound {  // then, by its first body: of its loads since the last look
+    float most = 0, largest = 0;
+    bool isAlone = false, isSettled = false;
+  };
+  std::vector<IslandRound> rounds;
   void goAhead(const Model& w, Batch& batch);
   BodyId rootOf(const Model& w, const KeptContact& c) const;
   double lengthOf(const Bodies& b, const KeptContact& c) const;

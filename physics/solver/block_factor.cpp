@@ -77,7 +77,6 @@ void BlockFactor<N>::layOut(std::span<const std::array<int, 2>> entries) {
     isTurned_.push_back(pattern_.placeOf(column) < pattern_.placeOf(row));
   }
   values_.resize(pattern_.slotCount());
-  lower_.resize(pattern_.lowerCount());
   inverse_.resize(size());
   row_.assign(size(), {});
   solved_.resize(size());
@@ -108,6 +107,7 @@ template <int N>
 void BlockFactor<N>::factorize() {
   const SubtractProducts<N> subtractProducts = kernel<N>();
   const int first = 0;
+  lower_.resize(pattern_.lowerCount());  // not before: who asks for fill() may think better of it
   pattern_.beginFilling();
   PaddedBlock<N> block;
   for (int k = 0; k < size(); ++k) {

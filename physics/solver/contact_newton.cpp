@@ -11,8 +11,7 @@ namespace {
 
 // Of what its bodies resist, how far a point gives way that gives way to nothing.
 constexpr double kGives = 1e-6;
-// Which points press changes from step to step; what does not end is not taken.
-constexpr int kMostNewtonSteps = 32, kMostSlopes = 40;
+constexpr int kMostSlopes = 40;
 
 Vec3 laneOf(const float (&v)[3][8], int l) { return {v[0][l], v[1][l], v[2][l]}; }
 Vec3 vectorOf(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
@@ -100,16 +99,17 @@ void ContactNewton::solvePositions(std::span<ContactBlock> blocks, std::span<Lan
     const double scale = of.scale[i][l], gives = std::max(1 - scale, kGives);
     return Law{of.aim[i][l] / scale, block.point[i].inverse[l] * scale / gives, scale == 1};
   });
-  solve(motions, pressed_.inPositions);
+  solve(motions, pressed_.inPositions, kMostSteps);
 }
 
-void ContactNewton::solveVelocities(std::span<ContactBlock> blocks, std::span<LaneMotion> motions) {
+void ContactNewton::solveVelocities(std::span<ContactBlock> blocks, std::span<LaneMotion> motions,
+                                    int mostSteps) {
   contactKernels().measure(blocks.data(), static_cast<int>(blocks.size()), motions.data());
   takeRows(blocks, [&](const ContactBlock& block, int l, int i) {
     const ContactBlock::Point& p = block.point[i];
     return Law{p.open[l], p.inverse[l] / kGives, true};
   });
-  solve(motions, pressed_.inVelocities);
+  solve(motions, pressed_.inVelocities, mostSteps);
 }
 
 // M^-1
@@ -133,8 +133,16 @@ Vec3 ContactNewton::rateOf(const Joint& joint, const Motions& x) const {
   return joint.ofA * x[joint.a] + joint.ofB * x[joint.b];
 }
 
+// What rateOf comes to where nothing cancels.
+double ContactNewton::wayOf(const Row& row, const Motions& x) const {
+  const Pair& pair = contacts_[row.contact];
+  return row.ofA.cwiseAbs().dot(x[pair.a].cwiseAbs()) +
+         row.ofB.cwiseAbs().dot(x[pair.b].cwiseAbs());
+}
+
 // From what bodies move by to what they do but for these loads, and from there on: aims count what
-// they move by without.
+// they move by without. What falls with what it lies on presses as well as what lies on the floor:
+// from one to the next it would take a step for each.
 void ContactNewton::start(std::span<const LaneMotion> motions) {
   std::fill(before_.begin(), before_.end(), Six::Zero());
   x_[0].setZero();
@@ -144,7 +152,7 @@ void ContactNewton::start(std::span<const LaneMotion> motions) {
   for (const Row& row : rows_) push(contacts_[row.contact], row, row.before, before_);
   for (Row& row : rows_) {
     const double rate = rateOf(row, x_);
-    row.presses = row.before > 0 || rate + row.aim < 0;
+    row.presses = row.before > 0 || rate + row.aim < kGives * wayOf(row, x_);
     row.aim += rate - rateOf(row, before_);
   }
   x_ = before_;
@@ -304,8 +312,8 @@ double ContactNewton::valueOf(const Motions& x) const {
 }
 
 // From what is thought to press, to next_. True: the same points press there, and it is least.
-bool ContactNewton::descend() {
-  for (int k = 0; k < kMostNewtonSteps; ++k) {
+bool ContactNewton::descend(int mostSteps) {
+  for (int k = 0; k < mostSteps; ++k) {
     next_ = x_;
     minimize(next_);
     if (markPressing(next_)) return true;
@@ -322,13 +330,14 @@ bool ContactNewton::descend() {
 }
 
 // Loads that do not go down are not taken.
-void ContactNewton::solve(std::span<LaneMotion> motions, std::vector<char>& pressed) {
+void ContactNewton::solve(std::span<LaneMotion> motions, std::vector<char>& pressed,
+                          int mostSteps) {
   start(motions);
   if (pressed.size() == rows_.size()) {
     for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k].presses = pressed[k] != 0;
   }
   holdJoints();
-  const bool ends = descend();
+  const bool ends = descend(mostSteps);
   pressed.clear();
   for (const Row& row : rows_) pressed.push_back(row.presses);
   std::fill(x_.begin(), x_.end(), Six::Zero());

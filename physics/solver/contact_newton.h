@@ -22,6 +22,7 @@ namespace physics {
 
 class ContactNewton {
  public:
+  static constexpr int kMostSteps = 32;     // of Newton's
   using Six = Eigen::Matrix<double, 6, 1>;  // u, and turns in the units of the lanes
   using Rows = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
   using RowSix = Eigen::Matrix<double, 1, 6>;
@@ -37,12 +38,14 @@ class ContactNewton {
   // Of which bodies touch or have joints. Allocates, where these are others than before.
   void layOut(std::span<const ContactBlock> blocks, std::span<const LaneMass> masses);
   double multiplications() const;  // of a factor, about
+  double fill() const { return factor_.fill(); }
 
   // From the loads that blocks and motions have to those of a stage; friction stays as it is, and
   // bodies do not move by what joints make of it: these are to follow.
   void solvePositions(std::span<ContactBlock> blocks, std::span<LaneMotion> motions,
                       PositionSweep which);
-  void solveVelocities(std::span<ContactBlock> blocks, std::span<LaneMotion> motions);
+  void solveVelocities(std::span<ContactBlock> blocks, std::span<LaneMotion> motions,
+                       int mostSteps = kMostSteps);
 
  private:
   using Motions = std::vector<Six>;  // by slot
@@ -72,13 +75,13 @@ class ContactNewton {
   Pair pairOf(int a, int b);
   template <class LawOf>
   void takeRows(std::span<ContactBlock> blocks, LawOf&& lawOf);
-  void solve(std::span<LaneMotion> motions, std::vector<char>& pressed);
+  void solve(std::span<LaneMotion> motions, std::vector<char>& pressed, int mostSteps);
   void start(std::span<const LaneMotion> motions);
   bool markPressing(const Motions& x);
   double valueOf(const Motions& x) const;
   double findLeast();
   void minimize(Motions& x);
-  bool descend();
+  bool descend(int mostSteps);
   Mat3 stiffnessOf(const Joint& joint) const;
   void holdJoints();
   template <class J, class K>
@@ -87,6 +90,7 @@ class ContactNewton {
   Six moved(int slot, const Six& impulse) const;
   void push(const Pair& pair, const Row& row, double lambda, Motions& x) const;
   double rateOf(const Row& row, const Motions& x) const;
+  double wayOf(const Row& row, const Motions& x) const;
   Vec3 rateOf(const Joint& joint, const Motions& x) const;
 
   std::vector<int> places_;                                  // by slot: in the matrix; -1: given
