@@ -42,6 +42,10 @@ fs::path goldenFolder(const GoldenOptions& options, const std::string& scene) {
   return root.lexically_normal() / scene;
 }
 
+std::string describeNone(const std::string& name) {
+  return fmt::format("none  {:<24} has no golden frames\n", name);
+}
+
 // Physics, view or renderer: the first layer that moved explains those after it.
 std::string movedLayer(const GoldenHashes* recorded, const GoldenFrame& now, bool samePixels) {
   if (recorded == nullptr) return "no hashes recorded";
@@ -136,7 +140,7 @@ std::vector<ImagePair> checkScene(const GoldenOptions& options, const std::strin
   const fs::path folder = goldenFolder(options, scene.name);
   const GoldenRecord record = readGoldenRecord(folder);
   std::vector<ImagePair> pairs;
-  if (scene.golden.frames.empty()) say(fmt::format("none  {:<24} has no golden frames\n", name));
+  if (scene.golden.frames.empty()) say(describeNone(name));
   if (!record.problem.empty()) {
     pairs.push_back(failedPair(scene.name + " golden.json", record.problem));
   }
@@ -214,12 +218,14 @@ bool updateFrame(const scenes::Scene& scene, const GoldenRecord& before, const G
   return !moved.empty();
 }
 
-void updateScene(const GoldenOptions& options, const std::string& name) {
+// How many frames there are.
+std::size_t updateScene(const GoldenOptions& options, const std::string& name) {
   const scenes::Scene scene = scenes::readScene(name, options.common.overrides);
+  if (scene.golden.frames.empty()) say(describeNone(name));
   const fs::path folder = goldenFolder(options, scene.name);
   const GoldenRecord before = readGoldenRecord(folder);
   const GoldenRun run = drawGoldenFrames(scene, {}, options.common.progressMode());
-  if (interrupted()) return;
+  if (interrupted()) return 0;
   if (!run.problem.empty()) throw CheckFailed(run.problem);
   GoldenRecord after{options.reason, {}, run.motion, ""};
   bool changed = before.frames.size() != run.frames.size();
@@ -229,19 +235,24 @@ void updateScene(const GoldenOptions& options, const std::string& name) {
   }
   // A record that only gains the motion behind the same images keeps their reason.
   if (!changed) after.reason = before.reason;
-  if (!changed && toJson(before.motion) == toJson(after.motion)) return;
+  if (!changed && toJson(before.motion) == toJson(after.motion)) return run.frames.size();
   removeStale(before, after, folder);
   writeGoldenRecord(after, folder);
+  return run.frames.size();
 }
 
 ExitCode updateGoldens(const GoldenOptions& options) {
   if (options.reason.find_first_not_of(" \t\n") == std::string::npos) {
     throw scenes::InputError("golden update: --reason must say why the pictures change");
   }
+  std::size_t frames = 0;
   for (const std::string& name : chosenScenes(options)) {
-    updateScene(options, name);
+    frames += updateScene(options, name);
     if (interrupted()) return ExitCode::kInterrupted;
     flushOutput();
+  }
+  if (frames == 0) {
+    throw CheckFailed("golden update: nothing was approved, there are no [golden] frames");
   }
   return ExitCode::kDone;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include "scenes/measure/metrics.h"
 #include "scenes/models/read_model.h"
@@ -48,9 +50,17 @@ void checkDuration(const TableReader& root, const Scene& scene) {
        fmt::format("duration: expected at most {} frames, got {:.0f}", kMostFrames, frames));
 }
 
+// Names are of bodies, which the recipe knows, or one to each table of a word, for --set.
 void readWords(TableReader& root, Recipe& recipe, std::span<const Word> words) {
   for (const Word& word : words) {
-    readTables(root, word.name, [&](TableReader& reader) { word.read(reader, recipe); });
+    std::set<std::string> names;
+    readTables(root, word.name, [&](TableReader& reader) {
+      word.read(reader, recipe);
+      const Value* name = reader.table().find("name");
+      if (name == nullptr || names.insert(name->text).second) return;
+      reader.failAt(
+          "name", fmt::format("expected a new name, '{}' is a {} already", name->text, word.name));
+    });
   }
 }
 

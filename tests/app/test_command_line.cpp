@@ -108,6 +108,15 @@ TEST_F(CommandLine, CheckFailsWithThreeWhereOneDoesNotHold) {
   EXPECT_NE(failed.output.find("FAIL"), std::string::npos) << failed.output;
 }
 
+TEST_F(CommandLine, CheckRefusesTwoScenesOfOneNameThatWouldWriteOneFolder) {
+  std::filesystem::create_directory(folder / "other");
+  writeText(folder / "other" / "drop.toml", readBytes(folder / "drop.toml"));
+  EXPECT_EQ(run("check drop.toml other/drop.toml").code, 0);
+  expectRefused("check drop.toml other/drop.toml --out verdicts",
+                "'drop.toml' and 'other/drop.toml' would both write verdicts/drop/run.json");
+  EXPECT_FALSE(std::filesystem::exists(folder / "verdicts"));
+}
+
 TEST_F(CommandLine, ListNamesTheLibraryAsTextAndJson) {
   EXPECT_EQ(run("list").code, 0);
   const Outcome json = run("list --json");

@@ -20,6 +20,16 @@ TEST_F(Golden, UpdateNeedsAReason) {
   EXPECT_FALSE(fs::exists(folder / "goldens"));
 }
 
+TEST_F(Golden, UpdateSaysWhereThereIsNothingToApprove) {
+  const std::string text = readBytes(folder / "drop.toml");
+  writeText(folder / "drop.toml", text.substr(0, text.find("[golden]")));
+  const Outcome update = golden("update --reason 'the first'");
+  EXPECT_EQ(update.code, 3);
+  EXPECT_NE(update.output.find("has no golden frames"), std::string::npos) << update.output;
+  EXPECT_NE(update.errors.find("nothing was approved"), std::string::npos) << update.errors;
+  EXPECT_FALSE(fs::exists(folder / "goldens"));
+}
+
 TEST_F(Golden, WhatWasApprovedPassesAndIsNotRewritten) {
   EXPECT_EQ(golden("check").code, 3);  // nothing approved yet
   const Outcome update = golden("update --reason 'the first'");

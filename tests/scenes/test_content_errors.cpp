@@ -106,6 +106,14 @@ TEST(SceneConstraint, WantsABodyThatCanMove) {
             "test.toml:6:10: distance.bodies: expected at least one body that can move");
 }
 
+TEST(SceneConstraint, RefusesANameThatAnotherOfItsKindHas) {
+  const std::string joint = "bodies = [\"world\", \"a\"]\nat = [0, 0, 0]\nname = \"hook\"\n";
+  EXPECT_EQ(errorOf(ball("a") + "[[ball_socket]]\n" + joint + "[[weld]]\n" + joint), "no error");
+  EXPECT_EQ(
+      errorOf(ball("a") + "[[ball_socket]]\n" + joint + "[[ball_socket]]\n" + joint),
+      "test.toml:11:8: ball_socket.name: expected a new name, 'hook' is a ball_socket already");
+}
+
 TEST(SceneConstraint, WantsAPlaceForABallSocket) {
   EXPECT_EQ(errorOf(ball("a") + "[[ball_socket]]\nbodies = [\"world\", \"a\"]\n"),
             "test.toml:4:1: ball_socket: expected 'at' or 'anchors'");
