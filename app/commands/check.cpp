@@ -93,11 +93,12 @@ Checked checkScene(const CheckOptions& options, const std::string& name) {
 
 // Each scene writes to a folder of its own name.
 void checkFolders(const CheckOptions& options, const std::vector<std::string>& names) {
+  if (options.common.folder.empty()) return;
   std::map<std::string, std::string> taken;
   for (const std::string& name : names) {
     const std::string folder = std::filesystem::path(name).stem().string();
     const auto [before, isNew] = taken.emplace(folder, name);
-    if (isNew || options.common.folder.empty()) continue;
+    if (isNew) continue;
     throw scenes::InputError(
         fmt::format("check: '{}' and '{}' would both write {}/{}/run.json; "
                     "check them one by one, with another --out for each",

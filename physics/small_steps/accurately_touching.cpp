@@ -295,9 +295,10 @@ bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
   if (!isExact && !(wayOf(w, trial) <= trial.allowed)) return false;
   const auto stands = [&](int contact) {
     const KeptContact& c = contacts[contact];
+    if (c.isHeld()) return true;
     const double load = std::accumulate(c.lambda.begin(), c.lambda.end(), 0.0);
     const double way = load * (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
-    return c.isHeld() || way <= kKnown * trial.extent;
+    return way <= kKnown * trial.extent;
   };
   return std::all_of(batch.contacts.begin(), batch.contacts.end(), stands);
 }

@@ -12,7 +12,8 @@ namespace {
 constexpr int kSweeps = 4096, kJointedSweeps = 32;
 // Solves for all normal loads at once. The first finds which points press, and gives way by a
 // millionth of what bodies resist: the loads of a tower of n are off by 0.4 n^2 of that, 0.4 % for
-// 100. Those that follow go on from there.
+// 100, and it sways by 25 mm after ten seconds. Those that follow go on from there, to 6e-8: 0.1
+// mm.
 constexpr int kSolves = 3;
 // Rounds of sweeps from one look ahead to the next: what it stirred up has to settle.
 constexpr int kRounds = 4;

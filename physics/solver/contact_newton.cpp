@@ -11,6 +11,7 @@ namespace {
 
 // Of what its bodies resist, how far a point gives way that gives way to nothing.
 constexpr double kGives = 1e-6;
+// Of a way that is looked along: as many halvings leave a part of 1e-12.
 constexpr int kMostSlopes = 40;
 
 Vec3 laneOf(const float (&v)[3][8], int l) { return {v[0][l], v[1][l], v[2][l]}; }

@@ -22,7 +22,9 @@ namespace physics {
 
 class ContactNewton {
  public:
-  static constexpr int kMostSteps = 32;     // of Newton's
+  // Steps of Newton's. Which points press changes from one to the next; a solve with joints that
+  // does not end is not taken, and one without goes on in the next from what pressed in the end.
+  static constexpr int kMostSteps = 32;
   using Six = Eigen::Matrix<double, 6, 1>;  // u, and turns in the units of the lanes
   using Rows = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
   using RowSix = Eigen::Matrix<double, 1, 6>;
