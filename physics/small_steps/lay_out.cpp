@@ -219,10 +219,12 @@ void SmallSteps::Impl::layOut(Model& w, Batch& batch) {
   forEachPlanned(w, levels, [&](int group) {
     for (const int i : contactsOf(group)) {
       int& lane = firstOf[listOf(places[i])];
+      const int list = group * kColours + places[i].colour;
       ContactBlock& block = batch.blocks[lane / kLanes];
       block.contact[lane % kLanes] = batch.contacts[i];
       block.points = std::max(block.points, places[i].points);
-      lane += laneStride(group * kColours + places[i].colour);
+      block.colour = laneStride(list) == 1 ? list : -1;
+      lane += laneStride(list);
     }
   });
   forEachGroup(w, batch, [&](int from, int to) {

@@ -1,3 +1,3 @@
 // Contact kernels in AVX2 registers: compiled with -mavx2, called where the processor has it.
 #define KERNELS kContactKernelsAvx2
-#include "physics/solver/contact_kernels.h"
+#include "physics/solver/contact_table.h"

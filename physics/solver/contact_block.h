@@ -74,6 +74,7 @@ struct alignas(32) ContactBlock {
   float change[2][8];       // sum of A dlambda^2 in the last velocity sweep, and the one before
   int contact[8];           // index of the contact, -1: an empty lane
   int points = kPoints;     // no lane has more
+  int colour = -1;          // blocks of one, from 0 on, share no body that moves
 };
 
 enum class ContactRows : char { kAll, kNormal, kFriction };
@@ -104,16 +105,19 @@ struct VelocitySweep {
   int left = 2;        // that follow in it: of the last two the change is summed up
 };
 
-struct ContactKernels {
-  // Everything that follows from arms, n, gaps, lambda and bodies.
-  void (*prepare)(ContactBlock* blocks, int count, const LaneMass* masses, FrictionAt friction);
+struct ContactSweeps {
   void (*warmStart)(ContactBlock* blocks, int count, LaneMotion* motions);
-  // lambda^T J u of each lane: eight numbers to a block.
-  void (*measureWork)(const ContactBlock* blocks, int count, const LaneMotion* motions,
-                      float* work);
   void (*sweepPositions)(ContactBlock* blocks, int count, LaneMotion* motions, PositionSweep which);
   void (*sweepVelocities)(ContactBlock* blocks, int count, LaneMotion* motions,
                           VelocitySweep which);
+};
+
+struct ContactKernels : ContactSweeps {
+  // Everything that follows from arms, n, gaps, lambda and bodies.
+  void (*prepare)(ContactBlock* blocks, int count, const LaneMass* masses, FrictionAt friction);
+  // lambda^T J u of each lane: eight numbers to a block.
+  void (*measureWork)(const ContactBlock* blocks, int count, const LaneMotion* motions,
+                      float* work);
   void (*findAims)(const ContactBlock* blocks, int count, const LaneMotion* motions,
                    PositionSweep which, PositionAims* aims);
   void (*measure)(ContactBlock* blocks, int count, const LaneMotion* motions);  // `open`
@@ -121,8 +125,9 @@ struct ContactKernels {
   void (*balance)(ContactBlock* blocks, int count, LaneMotion* motions);
 };
 
-// Chosen once, by what the processor has.
+// Chosen once, by what the processor has. With AVX-512 two blocks of a colour are swept at a time.
 const ContactKernels& contactKernels();
 extern const ContactKernels kContactKernelsSse2, kContactKernelsAvx2;
+extern const ContactSweeps kContactSweepsAvx512;
 
 }  // namespace physics

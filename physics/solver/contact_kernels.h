@@ -1,5 +1,6 @@
-// The kernels of contact_block.h, for the two files that compile them. KERNELS names the table.
-#include "physics/solver/contact_block.h"
+// The kernels of contact_block.h that sweep over blocks.
+#pragma once
+
 #include "physics/solver/contact_positions.h"
 
 namespace physics {
@@ -76,9 +77,10 @@ inline Lanes3 sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const 
   ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
   const Lanes last1 = load(t1.lambda), last2 = load(t2.lambda), twisted = load(m.twist);
   const Lanes grip = (nuS + nuD) * normal;
-  if (positive(grip + last1 * last1 + last2 * last2 + twisted * twisted) == 0) {
-    return {all(0), all(0), all(0)};  // nothing grips, or did
-  }
+  const Lanes3 none = {all(0), all(0), all(0)};
+  const Blocks grips = blocksWith(grip + last1 * last1 + last2 * last2 + twisted * twisted);
+  if (!grips.any) return none;  // nor did
+  const Moved lastA = a, lastB = b;
   const Lanes3 d1 = load(t1.d), d2 = load(t2.d);
   const Lanes rate = dot(load(m.twistA), a.turn) - dot(load(m.twistB), b.turn);
   const Lanes rate1 = rateOf(t1, dot(d1, between), a, b);
@@ -86,18 +88,20 @@ inline Lanes3 sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const 
   const Lanes wanted = twisted - load(m.twistInverse) * rate;
   const Lanes kept = onSegment(wanted, nuS * turning, nuD * turning);
   const Lanes more = kept - twisted;
-  store(m.twist, kept);
+  store(m.twist, in(grips, kept, twisted));
   const Lanes v1 = rate1 + load(t1.twisted) * more, v2 = rate2 + load(t2.twisted) * more;
   const Lanes across = load(m.inverse12);
   Lanes total1 = last1 - (load(m.inverse11) * v1 + across * v2);
   Lanes total2 = last2 - (across * v1 + load(m.inverse22) * v2);
   takeDisc(m, nuS * normal, nuD * normal, total1, total2);
-  store(t1.lambda, total1);
-  store(t2.lambda, total2);
+  store(t1.lambda, in(grips, total1, last1));
+  store(t2.lambda, in(grips, total2, last2));
   twist(m, more, a, b);
   turn(t1, total1 - last1, a, b);
   turn(t2, total2 - last2, a, b);
-  return d1 * (total1 - last1) + d2 * (total2 - last2);
+  a = in(grips, a, lastA);
+  b = in(grips, b, lastB);
+  return in(grips, d1 * (total1 - last1) + d2 * (total2 - last2), none);
 }
 
 // How far each point is open where the substep has moved the bodies to.
@@ -224,52 +228,5 @@ inline void forEachBlock(Block* blocks, int count, F&& f) {
   }
 }
 
-void prepareAll(ContactBlock* blocks, int count, const LaneMass* masses, FrictionAt friction) {
-  for (int i = 0; i < count; ++i) prepareBlock(blocks[i], masses, friction);
-}
-void warmStartAll(ContactBlock* blocks, int count, LaneMotion* motions) {
-  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
-    warmStartBlock<points.value>(block, motions);
-  });
-}
-void measureWorkAll(const ContactBlock* blocks, int count, const LaneMotion* motions, float* work) {
-  forEachBlock(blocks, count, [&](const ContactBlock& block, auto points) {
-    store(work + (&block - blocks) * ContactBlock::kLanes, workOf<points.value>(block, motions));
-  });
-}
-void sweepPositionsAll(ContactBlock* blocks, int count, LaneMotion* motions, PositionSweep which) {
-  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
-    sweepPositionsBlock<points.value>(block, motions, which);
-  });
-}
-void sweepVelocitiesAll(ContactBlock* blocks, int count, LaneMotion* motions, VelocitySweep which) {
-  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
-    sweepVelocitiesBlock<points.value>(block, motions, which);
-  });
-}
-
-void findAimsAll(const ContactBlock* blocks, int count, const LaneMotion* motions,
-                 PositionSweep which, PositionAims* aims) {
-  forEachBlock(blocks, count, [&](const ContactBlock& block, auto points) {
-    aimBlock<points.value>(block, motions, which, aims[&block - blocks]);
-  });
-}
-
-void measureAll(ContactBlock* blocks, int count, const LaneMotion* motions) {
-  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
-    measureBlock<points.value>(block, motions);
-  });
-}
-
-void balanceAll(ContactBlock* blocks, int count, LaneMotion* motions) {
-  forEachBlock(blocks, count, [&](ContactBlock& block, auto points) {
-    balanceBlock<points.value>(block, motions);
-  });
-}
-
 }  // namespace
-
-const ContactKernels KERNELS = {prepareAll,         warmStartAll, measureWorkAll, sweepPositionsAll,
-                                sweepVelocitiesAll, findAimsAll,  measureAll,     balanceAll};
-
 }  // namespace physics

@@ -1,11 +1,17 @@
 // Bodies in the lanes of contacts, and what an impulse does to them: a part of the kernels of
 // contact_block.h.
+#pragma once
+
 #include "physics/solver/contact_block.h"
-#include "physics/solver/contact_prepare.h"
 #include "physics/solver/lanes.h"
 
 namespace physics {
 namespace {
+
+constexpr float kTiny = 1e-30f;  // in place of zero, which empty lanes would be divided by
+
+// The place of the coupling of points i < j.
+constexpr int couplingOf(int i, int j) { return i == 0 ? j - 1 : i + j; }
 
 struct Moved {
   Lanes3 u, turn;
@@ -19,13 +25,13 @@ struct Since {
 // meet it may be swept at the same time.
 inline Moved gather(const int (&slot)[8], const LaneMotion* motions) {
   Lanes rows[8];
-  for (int l = 0; l < 8; ++l) rows[l] = load(motions[slot[l]].u);
+  for (int l = 0; l < 8; ++l) rows[l] = loadAt(slot, l, motions, &LaneMotion::u);
   transpose(rows);
   return {{rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}};
 }
 inline Since gatherSince(const int (&slot)[8], const LaneMotion* motions) {
   Lanes rows[8];
-  for (int l = 0; l < 8; ++l) rows[l] = load(motions[slot[l]].du);
+  for (int l = 0; l < 8; ++l) rows[l] = loadAt(slot, l, motions, &LaneMotion::du);
   transpose(rows);
   return {{rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}, rows[6]};
 }
@@ -33,14 +39,7 @@ inline void scatter(const int (&slot)[8], Lanes mass, const Moved& body, LaneMot
   const Lanes zero = all(0);
   Lanes rows[8] = {body.u.x, body.u.y, body.u.z, body.turn.x, body.turn.y, body.turn.z, zero, zero};
   transpose(rows);
-  const unsigned moves = positive(mass);
-  if (moves == 0xFF) {
-    for (int l = 0; l < 8; ++l) store(motions[slot[l]].u, rows[l]);
-    return;
-  }
-  for (int l = 0; l < 8; ++l) {
-    if (moves >> l & 1) store(motions[slot[l]].u, rows[l]);
-  }
+  storeAt(slot, positive(mass), rows, motions, &LaneMotion::u);
 }
 
 template <class Row, class Body>
@@ -52,6 +51,10 @@ template <class Row>
 inline void turn(const Row& row, Lanes impulse, Moved& a, Moved& b) {
   a.turn = a.turn + load(row.wA) * impulse;
   b.turn = b.turn - load(row.wB) * impulse;
+}
+
+inline Moved in(Blocks blocks, const Moved& a, const Moved& b) {
+  return {in(blocks, a.u, b.u), in(blocks, a.turn, b.turn)};
 }
 
 inline void push(const ContactBlock& m, const Lanes3& impulse, Moved& a, Moved& b) {
@@ -72,7 +75,9 @@ inline Lanes gapOf(const ContactBlock& m, int i, Lanes apart, const Since& a, co
 // What point i was given, to the rates of those that come after it.
 template <int kCount>
 inline void tellOthers(const ContactBlock& m, int i, Lanes delta, Lanes (&v)[kCount]) {
-  for (int j = i + 1; j < kCount; ++j) v[j] = v[j] + load(m.coupling[couplingOf(i, j)]) * delta;
+  if constexpr (kCount > 1) {
+    for (int j = i + 1; j < kCount; ++j) v[j] = v[j] + load(m.coupling[couplingOf(i, j)]) * delta;
+  }
 }
 
 // lambda, where it is at most nu_s limit, else nu_d limit its way.

@@ -1,21 +1,26 @@
 // The position sweep: a part of the kernels of contact_block.h.
+#pragma once
+
 #include "physics/solver/contact_lanes.h"
 
 namespace physics {
 namespace {
 
 // What is pushed apart slides: friction would hold it by the push, which is no load.
-inline void forgetFriction(ContactBlock& m, Lanes deep, Moved& a, Moved& b) {
+inline void forgetFriction(ContactBlock& m, Blocks near, Lanes deep, Moved& a, Moved& b) {
   const Lanes zero = all(0);
+  const Moved lastA = a, lastB = b;
   for (ContactBlock::Tangent& t : m.tangent) {
     const Lanes lambda = load(t.lambda), back = wherePositive(deep, zero - lambda, zero);
     turn(t, back, a, b);
     push(m, load(t.d) * back, a, b);
-    store(t.lambda, lambda + back);
+    store(t.lambda, in(near, lambda + back, lambda));
   }
   const Lanes lambda = load(m.twist), back = wherePositive(deep, zero - lambda, zero);
   twist(m, back, a, b);
-  store(m.twist, lambda + back);
+  store(m.twist, in(near, lambda + back, lambda));
+  a = in(near, a, lastA);
+  b = in(near, b, lastB);
 }
 
 // Friction of before gives no more than what the points carry now can hold: bodies would gain
@@ -73,12 +78,13 @@ template <int kCount>
 inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSweep which) {
   const Depths<kCount> depths(m, gatherSince(m.bodyA, motions), gatherSince(m.bodyB, motions),
                               which);
-  const bool isNear = positive(depths.near) != 0;
-  if (which.onlyDeep && !isNear) return;
+  const Blocks near = blocksWith(depths.near);
+  if (which.onlyDeep && !near.any) return;
   Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
-  if (isNear && !which.onlyDeep) {
+  const Moved lastA = a, lastB = b;
+  if (near.any && !which.onlyDeep) {
     const Lanes deep = depths.full * depths.own - load(m.push);
-    forgetFriction(m, wherePositive(depths.near, deep, all(0)), a, b);
+    forgetFriction(m, near, wherePositive(depths.near, deep, all(0)), a, b);
   }
   const Lanes3 n = load(m.n);
   const Lanes zero = all(0), one = all(1), along = dot(n, a.u - b.u);
@@ -108,7 +114,12 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSw
     sum = sum + delta;
   }
   push(m, n * sum, a, b);
-  if (!which.onlyDeep) limitFriction<kCount>(m, lambda, a, b);
+  if (which.onlyDeep) {
+    a = in(near, a, lastA);
+    b = in(near, b, lastB);
+  } else {
+    limitFriction<kCount>(m, lambda, a, b);
+  }
   scatter(m.bodyA, load(m.massA), a, motions);
   scatter(m.bodyB, load(m.massB), b, motions);
 }

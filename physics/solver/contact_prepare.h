@@ -1,15 +1,12 @@
 // Rows of contacts from arms, normals and inertias: a part of the kernels of contact_block.h.
-#include "physics/solver/contact_block.h"
-#include "physics/solver/lanes.h"
+#pragma once
+
+#include "physics/solver/contact_lanes.h"
 
 namespace physics {
 namespace {
 
-constexpr float kTiny = 1e-30f;    // in place of zero, which empty lanes would be divided by
 constexpr float kNoTurn = 1e-20f;  // [1/(kg m^2)], far above kUnturned^2
-
-// The place of the coupling of points i < j.
-constexpr int couplingOf(int i, int j) { return i == 0 ? j - 1 : i + j; }
 
 struct Roots {
   Lanes mass, root[6];

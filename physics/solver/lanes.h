@@ -1,14 +1,21 @@
-// Eight single precision numbers at a time: one AVX2 register, or two SSE2 halves. Every operation
-// is rounded as IEEE says, lane by lane, so that both give the same bytes: no fused multiply-add,
-// no approximate reciprocal. Included by the kernels alone, which are compiled once for each.
+// Eight single precision numbers at a time: one AVX2 register, or two SSE2 halves; or eight each of
+// two blocks, an AVX-512 register. Every operation is rounded as IEEE says, lane by lane, so that
+// all give the same bytes: no fused multiply-add, no approximate reciprocal. Included by the
+// kernels alone, which are compiled once for each.
 #pragma once
 
 #include <immintrin.h>
 
+#ifdef __AVX512F__
+#include "physics/solver/lanes_of_two.h"
+#endif
+
 namespace physics {
 namespace {
 
-#ifdef __AVX2__
+#ifdef __AVX512F__
+// Those of lanes_of_two.h.
+#elif defined(__AVX2__)
 
 struct Lanes {
   __m256 v;
@@ -105,6 +112,36 @@ inline void transpose(Lanes* r) {
 
 #endif
 
+#ifndef __AVX512F__
+
+// Of the blocks at work, those with a lane that is > 0: what is left undone where there is none is
+// to leave no trace in the others, not in the sign of a zero.
+struct Blocks {
+  bool any;
+};
+inline Blocks blocksWith(Lanes test) { return {positive(test) != 0}; }
+// a of those blocks, else b.
+inline Lanes in(Blocks blocks, Lanes a, Lanes b) { return blocks.any ? a : b; }
+
+// Row l of eight, where `slot` says, and back where `which` has its bit.
+template <class Record>
+inline Lanes loadAt(const int (&slot)[8], int l, const Record* records, float (Record::*row)[3]) {
+  return load(records[slot[l]].*row);
+}
+template <class Record>
+inline void storeAt(const int (&slot)[8], unsigned which, const Lanes (&rows)[8], Record* records,
+                    float (Record::*row)[3]) {
+  if (which == 0xFF) {
+    for (int l = 0; l < 8; ++l) store(records[slot[l]].*row, rows[l]);
+    return;
+  }
+  for (int l = 0; l < 8; ++l) {
+    if (which >> l & 1) store(records[slot[l]].*row, rows[l]);
+  }
+}
+
+#endif
+
 struct Lanes3 {
   Lanes x, y, z;
 };
@@ -118,6 +155,9 @@ inline Lanes3 operator*(const Lanes3& a, Lanes s) { return {a.x * s, a.y * s, a.
 inline Lanes dot(const Lanes3& a, const Lanes3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Lanes3 cross(const Lanes3& a, const Lanes3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Lanes3 in(Blocks blocks, const Lanes3& a, const Lanes3& b) {
+  return {in(blocks, a.x, b.x), in(blocks, a.y, b.y), in(blocks, a.z, b.z)};
 }
 inline Lanes3 load(const float (&p)[3][8]) { return {load(p[0]), load(p[1]), load(p[2])}; }
 inline void store(float (&p)[3][8], const Lanes3& a) {

@@ -271,57 +271,119 @@ TEST(SmallSteps, AtAHitMomentumIsKept) {
   EXPECT_LT((2 * v[a].v + 3 * v[b].v - Vec3(20, 0, 0)).norm(), 1e-5);  // float: 1e-7 of 20
 }
 
-// The same bytes from either set of registers.
+// Two blocks of a colour with so many points, whose bodies come to `masses` and `motions`: every
+// number another one.
+struct TwoBlocks {
+  static constexpr int kSlots = 33;
+  ContactBlock blocks[2]{};
+  LaneMass masses[kSlots]{};
+  LaneMotion motions[kSlots]{};
+
+  explicit TwoBlocks(int points) {
+    for (int s = 1; s < kSlots; ++s) {
+      masses[s].inverse = 1 + next();
+      for (const int k : {0, 3, 5}) masses[s].root[k] = 1.5f + next();
+      for (const int k : {1, 2, 4}) masses[s].root[k] = 0.2f * next();
+      for (int k = 0; k < 3; ++k) {
+        motions[s].u[k] = 0.01f * next(), motions[s].turn[k] = 0.01f * next();
+      }
+    }
+    for (int i = 0; i < 2; ++i) fill(blocks[i], points, 1 + 16 * i);
+  }
+
+  void work(const ContactKernels& kernels, const ContactSweeps& sweeps) {
+    kernels.prepare(blocks, 2, masses, FrictionAt{0.02f});
+    sweeps.warmStart(blocks, 2, motions);
+    sweeps.sweepPositions(blocks, 2, motions, {});
+    sweeps.sweepPositions(blocks, 2, motions, {.onlyDeep = true});
+    for (int k = 0; k < 3; ++k) {
+      sweeps.sweepVelocities(blocks, 2, motions, {.first = k == 0, .left = 2 - k});
+    }
+  }
+  void expectTheSame(const TwoBlocks& other) const {
+    EXPECT_EQ(std::memcmp(blocks, other.blocks, sizeof blocks), 0);
+    EXPECT_EQ(std::memcmp(motions, other.motions, sizeof motions), 0);
+  }
+
+ private:
+  float next() {
+    return static_cast<float>((seed_ = seed_ * 1103515245u + 12345u) >> 9) / 8388608.f - 0.5f;
+  }
+  void fill(ContactBlock& block, int points, int first) {
+    block.points = points;
+    block.colour = 0;
+    for (int l = 0; l < 8; ++l) {
+      block.bodyA[l] = first + 2 * l;
+      block.bodyB[l] = l == 3 ? 0 : first + 1 + 2 * l;
+      const Vec3 n = Vec3{next(), next(), next()}.normalized();
+      for (int k = 0; k < 3; ++k) block.n[k][l] = static_cast<float>(n[k]);
+      block.scale[l] = 0.9f, block.rate[l] = 0.2f, block.push[l] = 0.01f;
+      block.staticFriction[l] = 0.6f, block.dynamicFriction[l] = 0.5f;
+      for (auto& p : block.point) {
+        for (int k = 0; k < 3; ++k) p.wA[k][l] = next(), p.wB[k][l] = next();
+        p.lambda[l] = 0.01f * (0.5f + next()), p.inverse[l] = 1;
+      }
+      for (auto& gap : block.gap) gap[l] = 0.01f * next();
+    }
+  }
+
+  unsigned seed_ = 1;
+};
+
+// The same bytes from any set of registers.
 class ContactKernelsOf : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Points, ContactKernelsOf, ::testing::Values(1, 2, 3, 4));
 
 TEST_P(ContactKernelsOf, GiveTheSameBytesInHalvesAndInOne) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2 here";
-  ContactBlock start{};
-  start.points = GetParam();
-  LaneMass masses[17]{};
-  LaneMotion motions[17]{};
-  unsigned seed = 1;
-  const auto next = [&] {
-    return static_cast<float>((seed = seed * 1103515245u + 12345u) >> 9) / 8388608.f - 0.5f;
-  };
-  for (int s = 1; s < 17; ++s) {
-    masses[s].inverse = 1 + next();
-    for (const int k : {0, 3, 5}) masses[s].root[k] = 1.5f + next();
-    for (const int k : {1, 2, 4}) masses[s].root[k] = 0.2f * next();
-    for (int k = 0; k < 3; ++k)
-      motions[s].u[k] = 0.01f * next(), motions[s].turn[k] = 0.01f * next();
-  }
-  for (int l = 0; l < 8; ++l) {
-    start.bodyA[l] = 1 + 2 * l;
-    start.bodyB[l] = l == 3 ? 0 : 2 + 2 * l;
-    const Vec3 n = Vec3{next(), next(), next()}.normalized();
-    for (int k = 0; k < 3; ++k) start.n[k][l] = static_cast<float>(n[k]);
-    start.scale[l] = 0.9f, start.rate[l] = 0.2f, start.push[l] = 0.01f;
-    start.staticFriction[l] = 0.6f, start.dynamicFriction[l] = 0.5f;
-    for (auto& p : start.point) {
-      for (int k = 0; k < 3; ++k) p.wA[k][l] = next(), p.wB[k][l] = next();
-      p.lambda[l] = 0.01f * (0.5f + next()), p.inverse[l] = 1;
+  TwoBlocks narrow(GetParam()), wide = narrow;
+  narrow.work(kContactKernelsSse2, kContactKernelsSse2);
+  wide.work(kContactKernelsAvx2, kContactKernelsAvx2);
+  wide.expectTheSame(narrow);
+}
+
+TEST_P(ContactKernelsOf, GiveTheSameBytesForTwoBlocksAtATime) {
+  if (!__builtin_cpu_supports("avx512f")) GTEST_SKIP() << "no AVX-512 here";
+  TwoBlocks each(GetParam()), both = each;
+  each.work(kContactKernelsAvx2, kContactKernelsAvx2);
+  both.work(kContactKernelsAvx2, kContactSweepsAvx512);
+  both.expectTheSame(each);
+}
+
+// What one of the two has nothing to do with leaves no trace in it, not in the sign of a zero.
+TEST_P(ContactKernelsOf, LeaveAloneWhatOnlyTheOtherOfTwoBlocksHas) {
+  if (!__builtin_cpu_supports("avx512f")) GTEST_SKIP() << "no AVX-512 here";
+  for (const int idle : {0, 1}) {
+    for (const bool isDeep : {false, true}) {
+      TwoBlocks each(GetParam());
+      ContactBlock& block = each.blocks[idle];
+      for (int l = 0; l < 8; ++l) {
+        for (auto& p : block.point) p.lambda[l] = 0;
+        for (auto& gap : block.gap) gap[l] = 1;
+        block.staticFriction[l] = block.dynamicFriction[l] = 0;
+        for (auto& t : block.tangent) t.lambda[l] = -0.f;
+        for (const int s : {block.bodyA[l], block.bodyB[l]}) {
+          for (float* row : {each.motions[s].u, each.motions[s].turn}) std::fill_n(row, 3, -0.f);
+        }
+        if (isDeep) each.motions[each.blocks[1 - idle].bodyA[l]].deepest = 0.5f;
+      }
+      TwoBlocks both = each;
+      each.work(kContactKernelsAvx2, kContactKernelsAvx2);
+      both.work(kContactKernelsAvx2, kContactSweepsAvx512);
+      both.expectTheSame(each);
     }
-    for (auto& gap : start.gap) gap[l] = 0.01f * next();
   }
-  const auto work = [&](const ContactKernels& kernels, ContactBlock& block,
-                        LaneMotion(&moved)[17]) {
-    kernels.prepare(&block, 1, masses, FrictionAt{0.02f});
-    kernels.warmStart(&block, 1, moved);
-    kernels.sweepPositions(&block, 1, moved, {});
-    for (int k = 0; k < 3; ++k) {
-      kernels.sweepVelocities(&block, 1, moved, {.first = k == 0, .left = 2 - k});
-    }
-  };
-  ContactBlock narrow = start, wide = start;
-  LaneMotion byHalves[17], byOne[17];
-  std::memcpy(byHalves, motions, sizeof motions);
-  std::memcpy(byOne, motions, sizeof motions);
-  work(kContactKernelsSse2, narrow, byHalves);
-  work(kContactKernelsAvx2, wide, byOne);
-  EXPECT_EQ(std::memcmp(&narrow, &wide, sizeof narrow), 0);
-  EXPECT_EQ(std::memcmp(byHalves, byOne, sizeof byOne), 0);
+}
+
+TEST_P(ContactKernelsOf, DoNotTakeBlocksOfTwoColoursTogether) {
+  if (!__builtin_cpu_supports("avx512f")) GTEST_SKIP() << "no AVX-512 here";
+  TwoBlocks each(GetParam());
+  std::copy_n(each.blocks[0].bodyA, 8, each.blocks[1].bodyB);  // the first pushes the second's
+  each.blocks[1].colour = 1;
+  TwoBlocks both = each;
+  each.work(kContactKernelsAvx2, kContactKernelsAvx2);
+  both.work(kContactKernelsAvx2, kContactSweepsAvx512);
+  both.expectTheSame(each);
 }
 
 // In reach of a wall and of nothing else: no contact is at work, and energy is kept though it turns
