@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <memory>
 
 #include "app/base/console.h"
@@ -91,25 +90,13 @@ Checked checkScene(const CheckOptions& options, const std::string& name) {
   return {holds ? end.code : ExitCode::kCheckFailed, verdicts.size(), casesOf(scene, verdicts)};
 }
 
-// Each scene writes to a folder of its own name.
-void checkFolders(const CheckOptions& options, const std::vector<std::string>& names) {
-  if (options.common.folder.empty()) return;
-  std::map<std::string, std::string> taken;
-  for (const std::string& name : names) {
-    const std::string folder = std::filesystem::path(name).stem().string();
-    const auto [before, isNew] = taken.emplace(folder, name);
-    if (isNew) continue;
-    throw scenes::InputError(
-        fmt::format("check: '{}' and '{}' would both write {}/{}/run.json; "
-                    "check them one by one, with another --out for each",
-                    before->second, name, options.common.folder, folder));
-  }
-}
-
 ExitCode check(const CheckOptions& options) {
   const std::vector<std::string> names = options.all ? wholeLibrary() : options.scenes;
   if (names.empty()) throw scenes::InputError("check: name a scene, or --all");
-  checkFolders(options, names);
+  if (!options.common.folder.empty()) {
+    requireOwnNames(names, "check", options.common.folder,
+                    "check them one by one, with another --out for each");
+  }
   Checked all;
   for (const std::string& name : names) {
     const Checked one = checkScene(options, name);

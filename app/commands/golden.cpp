@@ -31,15 +31,18 @@ struct GoldenOptions {
   int repeat = 1;
 };
 
-std::vector<std::string> chosenScenes(const GoldenOptions& options) {
-  return options.scenes.empty() ? wholeLibrary() : options.scenes;
-}
-
-fs::path goldenFolder(const GoldenOptions& options, const std::string& scene) {
+fs::path goldenFolder(const GoldenOptions& options) {
   const fs::path root = options.goldens.empty()
                             ? fs::path(scenes::libraryFolder()) / ".." / ".." / "tests" / "golden"
                             : fs::path(options.goldens);
-  return root.lexically_normal() / scene;
+  return root.lexically_normal();
+}
+
+std::vector<std::string> chosenScenes(const GoldenOptions& options) {
+  if (options.scenes.empty()) return wholeLibrary();
+  requireOwnNames(options.scenes, "golden", goldenFolder(options),
+                  "take them one by one, with another --goldens for each");
+  return options.scenes;
 }
 
 std::string describeNone(const std::string& name) {
@@ -137,7 +140,7 @@ void checkSteady(const GoldenOptions& options, const scenes::Scene& scene,
 // What one scene's goldens come to; fewer than asked for where the user interrupts.
 std::vector<ImagePair> checkScene(const GoldenOptions& options, const std::string& name) {
   const scenes::Scene scene = scenes::readScene(name, options.common.overrides);
-  const fs::path folder = goldenFolder(options, scene.name);
+  const fs::path folder = goldenFolder(options) / scene.name;
   const GoldenRecord record = readGoldenRecord(folder);
   std::vector<ImagePair> pairs;
   if (scene.golden.frames.empty()) say(describeNone(name));
@@ -222,7 +225,7 @@ bool updateFrame(const scenes::Scene& scene, const GoldenRecord& before, const G
 std::size_t updateScene(const GoldenOptions& options, const std::string& name) {
   const scenes::Scene scene = scenes::readScene(name, options.common.overrides);
   if (scene.golden.frames.empty()) say(describeNone(name));
-  const fs::path folder = goldenFolder(options, scene.name);
+  const fs::path folder = goldenFolder(options) / scene.name;
   const GoldenRecord before = readGoldenRecord(folder);
   const GoldenRun run = drawGoldenFrames(scene, {}, options.common.progressMode());
   if (interrupted()) return 0;

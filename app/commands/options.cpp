@@ -1,8 +1,11 @@
 // The options that commands share.
 #include "app/commands/options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 #include <thread>
 
 #include "app/base/shell.h"
@@ -62,6 +65,18 @@ std::vector<std::string> wholeLibrary() {
   std::vector<std::string> names = scenes::libraryScenes();
   if (names.empty()) throw scenes::InputError(scenes::nothingIn(scenes::libraryFolder()));
   return names;
+}
+
+void requireOwnNames(const std::vector<std::string>& scenes, const std::string& command,
+                     const std::filesystem::path& folder, const std::string& advice) {
+  std::map<std::string, std::string> taken;
+  for (const std::string& scene : scenes) {
+    const std::string name = std::filesystem::path(scene).stem().string();
+    const auto [before, isNew] = taken.emplace(name, scene);
+    if (isNew || before->second == scene) continue;
+    throw scenes::InputError(fmt::format("{}: '{}' and '{}' both have the folder {}; {}", command,
+                                         before->second, scene, (folder / name).string(), advice));
+  }
 }
 
 CLI::Option* addScene(CLI::App& command, CommonOptions& options) {

@@ -44,6 +44,11 @@ std::string given(const CLI::App& command, const std::vector<std::string>& witho
 // Every scene of the library; throws InputError where there is none.
 std::vector<std::string> wholeLibrary();
 
+// Where each of these scenes has a folder of its name: throws InputError where two are of one name,
+// "COMMAND: 'a' and 'b' both have the folder FOLDER/NAME; ADVICE".
+void requireOwnNames(const std::vector<std::string>& scenes, const std::string& command,
+                     const std::filesystem::path& folder, const std::string& advice);
+
 CLI::Option* addScene(CLI::App& command, CommonOptions& options);  // required
 // -o --threads --progress --quiet; `folder` says what -o is without being given.
 void addOutput(CLI::App& command, CommonOptions& options, const std::string& folder = "out/NAME");

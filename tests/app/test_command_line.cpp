@@ -113,7 +113,7 @@ TEST_F(CommandLine, CheckRefusesTwoScenesOfOneNameThatWouldWriteOneFolder) {
   writeText(folder / "other" / "drop.toml", readBytes(folder / "drop.toml"));
   EXPECT_EQ(run("check drop.toml other/drop.toml").code, 0);
   expectRefused("check drop.toml other/drop.toml --out verdicts",
-                "'drop.toml' and 'other/drop.toml' would both write verdicts/drop/run.json");
+                "'drop.toml' and 'other/drop.toml' both have the folder verdicts/drop;");
   EXPECT_FALSE(std::filesystem::exists(folder / "verdicts"));
 }
 

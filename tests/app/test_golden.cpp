@@ -20,6 +20,17 @@ TEST_F(Golden, UpdateNeedsAReason) {
   EXPECT_FALSE(fs::exists(folder / "goldens"));
 }
 
+TEST_F(Golden, TwoScenesOfOneNameAreRefused) {
+  fs::create_directory(folder / "other");
+  writeText(folder / "other" / "drop.toml", readBytes(folder / "drop.toml"));
+  for (const std::string part : {"update --reason 'the first'", "check"}) {
+    const Outcome both = golden(part + " other/drop.toml");
+    EXPECT_EQ(both.code, 2);
+    EXPECT_NE(both.errors.find("both have the folder goldens/drop;"), std::string::npos) << both.errors;
+  }
+  EXPECT_FALSE(fs::exists(folder / "goldens"));
+}
+
 TEST_F(Golden, UpdateSaysWhereThereIsNothingToApprove) {
   const std::string text = readBytes(folder / "drop.toml");
   writeText(folder / "drop.toml", text.substr(0, text.find("[golden]")));
