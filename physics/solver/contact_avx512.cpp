@@ -9,10 +9,11 @@ namespace {
 // one(block) of the others.
 template <class Two, class One>
 inline void forEachTwo(ContactBlock* blocks, int count, Two&& two, One&& one) {
+  const auto goTogether = [](const ContactBlock& a, const ContactBlock& b) {
+    return a.colour >= 0 && a.colour == b.colour && a.points == b.points;
+  };
   for (int i = 0; i < count; ++i) {
-    const ContactBlock &block = blocks[i], &next = blocks[i + 1 < count ? i + 1 : i];
-    if (i + 1 < count && block.colour >= 0 && block.colour == next.colour &&
-        block.points == next.points) {
+    if (i + 1 < count && goTogether(blocks[i], blocks[i + 1])) {
       forEachBlock(blocks + i++, 1, two);
     } else {
       one(blocks[i]);

@@ -93,6 +93,13 @@ template <class Record>
 inline void storeAt(const int (&slot)[8], unsigned which, const Lanes (&rows)[8], Record* records,
                     float (Record::*row)[3]) {
   const int* next = slot + kToNext;
+  if (which == kEach) {
+    for (int l = 0; l < 8; ++l) {
+      _mm256_store_ps(records[slot[l]].*row, of<0>(rows[l]));
+      _mm256_store_ps(records[next[l]].*row, of<1>(rows[l]));
+    }
+    return;
+  }
   for (int l = 0; l < 8; ++l) {
     if (which >> l & 1) _mm256_store_ps(records[slot[l]].*row, of<0>(rows[l]));
     if (which >> (8 + l) & 1) _mm256_store_ps(records[next[l]].*row, of<1>(rows[l]));
