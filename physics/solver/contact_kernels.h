@@ -79,7 +79,7 @@ inline Lanes3 sweepFriction(ContactBlock& m, Lanes normal, Lanes turning, const 
   const Lanes grip = (nuS + nuD) * normal;
   const Lanes3 none = {all(0), all(0), all(0)};
   const Blocks grips = blocksWith(grip + last1 * last1 + last2 * last2 + twisted * twisted);
-  if (!grips.any) return none;  // nor did
+  if (!grips.any()) return none;  // nor did
   const Moved lastA = a, lastB = b;
   const Lanes3 d1 = load(t1.d), d2 = load(t2.d);
   const Lanes rate = dot(load(m.twistA), a.turn) - dot(load(m.twistB), b.turn);

@@ -72,7 +72,8 @@ inline Lanes gapOf(const ContactBlock& m, int i, Lanes apart, const Since& a, co
   return load(m.gap[i]) + rateOf(m.point[i], apart, a, b);
 }
 
-// What point i was given, to the rates of those that come after it.
+// What point i was given, to the rates of those that come after it: one alone has none, and on the
+// loop that never runs g++ 12 fails.
 template <int kCount>
 inline void tellOthers(const ContactBlock& m, int i, Lanes delta, Lanes (&v)[kCount]) {
   if constexpr (kCount > 1) {

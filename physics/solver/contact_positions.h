@@ -79,10 +79,10 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSw
   const Depths<kCount> depths(m, gatherSince(m.bodyA, motions), gatherSince(m.bodyB, motions),
                               which);
   const Blocks near = blocksWith(depths.near);
-  if (which.onlyDeep && !near.any) return;
+  if (which.onlyDeep && !near.any()) return;
   Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
   const Moved lastA = a, lastB = b;
-  if (near.any && !which.onlyDeep) {
+  if (near.any() && !which.onlyDeep) {
     const Lanes deep = depths.full * depths.own - load(m.push);
     forgetFriction(m, near, wherePositive(depths.near, deep, all(0)), a, b);
   }

@@ -117,11 +117,12 @@ inline void transpose(Lanes* r) {
 // Of the blocks at work, those with a lane that is > 0: what is left undone where there is none is
 // to leave no trace in the others, not in the sign of a zero.
 struct Blocks {
-  bool any;
+  bool some;
+  bool any() const { return some; }
 };
 inline Blocks blocksWith(Lanes test) { return {positive(test) != 0}; }
 // a of those blocks, else b.
-inline Lanes in(Blocks blocks, Lanes a, Lanes b) { return blocks.any ? a : b; }
+inline Lanes in(Blocks blocks, Lanes a, Lanes b) { return blocks.some ? a : b; }
 
 // Row l of eight, where `slot` says, and back where `which` has its bit.
 template <class Record>

@@ -42,21 +42,20 @@ inline void store(float* p, Lanes a) {
   _mm256_store_ps(p + kToNext, of<1>(a));
 }
 
-inline __mmask16 maskOf(Lanes test) {
-  return _mm512_cmp_ps_mask(test.v, _mm512_setzero_ps(), _CMP_GT_OQ);
+inline __mmask16 positive(Lanes a) {
+  return _mm512_cmp_ps_mask(a.v, _mm512_setzero_ps(), _CMP_GT_OQ);
 }
 inline Lanes wherePositive(Lanes test, Lanes a, Lanes b) {
-  return {_mm512_mask_blend_ps(maskOf(test), b.v, a.v)};
+  return {_mm512_mask_blend_ps(positive(test), b.v, a.v)};
 }
-inline unsigned positive(Lanes a) { return maskOf(a); }
 
 struct Blocks {
   unsigned lanes;  // a bit each
-  bool any;
+  bool any() const { return lanes != 0; }
 };
 inline Blocks blocksWith(Lanes test) {
   const unsigned those = positive(test);
-  return {((those & 0xFF) != 0 ? 0xFFu : 0u) | ((those >> 8) != 0 ? 0xFF00u : 0u), those != 0};
+  return {((those & 0xFF) != 0 ? 0xFFu : 0u) | ((those >> 8) != 0 ? 0xFF00u : 0u)};
 }
 inline Lanes in(Blocks blocks, Lanes a, Lanes b) {
   return {_mm512_mask_blend_ps(static_cast<__mmask16>(blocks.lanes), b.v, a.v)};
