@@ -36,9 +36,6 @@ Inertia kindOfInertia(const Bodies& b, BodyId i) {
 
 // u = h v + h^2 M^-1 f, with the inertia at X^t and, where joints pull, their geometric stiffness.
 void SmallSteps::Impl::predict(Model& w, Batch& batch, bool first) {
-  for (const int k : batch.articulations) {
-    for (const BodyId i : articulations[k].bodies()) stiffness[i].setZero();
-  }
   batch.joints.stiffen(stiffness);
   if (batch.inLanes()) return predictLanes(w, batch, first);
   forEachBody(w, batch, [&](BodyId i, int) { predictBody(w, batch, i, first); });

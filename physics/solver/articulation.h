@@ -154,7 +154,7 @@ template <int W>
 class JointPack {
  public:
   void take(std::span<Articulation* const> articulations);
-  void stiffen(std::span<Mat3> stiffness) const;
+  void stiffen(std::span<Mat3> stiffness);
   void leave(const JointStage& stage, double most);
   void seeStart(const JointStage& stage);
   bool areNearlyClosed(const JointStage& stage);
@@ -199,6 +199,7 @@ class JointPack {
   void seeGaps(const JointStage& stage);
   void noteSeen();
   void step();
+  void stepToAim();
   void giveUp(const Num<W>& far);
   void leaveOpen(const JointStage& stage, std::span<const Displacement> predicted);
   bool isBeyondLimit(int lane) const;
@@ -207,11 +208,9 @@ class JointPack {
   void noteStep(int lane, double off);
   void goBack(int lane, double keeps);
   void goToPredicted(std::span<const Displacement> predicted, int lane);
-  void goBack(const Num<W>& far);
+  bool goBack(const Num<W>& far);
   void begin();
   void chooseFree();
-  void chooseCarrying();
-  void noteCarried();
   void setFree(int row, int lane, bool free);
   void factorize();
   void factorizeStale();
@@ -259,7 +258,7 @@ class JointPack {
 class JointPacks {
  public:
   void take(std::span<Articulation> articulations, std::span<const int> which);
-  void stiffen(std::span<Mat3> stiffness);  // adds what joints pull with, by BodyId
+  void stiffen(std::span<Mat3> stiffness);  // by BodyId: of what joints pull with
   // Before the substep, where errors are taken back by at most so much [m, rad].
   void leave(const JointStage& stage, double most);
   // Joints that are apart where a step begins, or that Newton's steps have not closed: what brings

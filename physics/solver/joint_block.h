@@ -17,13 +17,14 @@ struct alignas(8 * W) Num {
   double v[W];
 };
 
-// A body that rows act on. Turns are w, x, y, z; the inertia is M^-1's, xx yy zz xy xz yz, world.
+// A body that rows act on. Turns are w, x, y, z; the inertia is M^-1's and the stiffness geometric,
+// xx yy zz xy xz yz, world.
 template <int W>
 struct JointBody {
   Num<W> startX[3], startQ[4], x[3], q[4];
   Num<W> u[3], theta[3];          // what it moves by in this substep
   Num<W> seenU[3], seenTheta[3];  // and did where its rows were evaluated
-  Num<W> inverseMass, inertia[6];
+  Num<W> inverseMass, inertia[6], stiffness[6];
   Num<W> back[3], backQ[4];  // the turn that arms are taken back by, and q then
 };
 
@@ -137,7 +138,15 @@ struct JointKernels {
   void (*seeGaps)(const System&, bool back);  // c of gaps at x, q, and J there or at x, backQ
   // c, J and bounds of cones and twists: of all, where only the sign of c counts, or of those used.
   void (*seeLimits)(const System&, bool all);
-  void (*chooseLimits)(const System&);  // free where lambda = 0 is no solution
+  void (*begin)(const System&);  // lambda = 0 of what the kernels evaluate
+  // Limits are free where lambda = 0 is no solution, and where they carried in the last substep.
+  // True: there are some that are for that alone.
+  bool (*chooseLimits)(const System&);
+  // Of what the kernels evaluate: held where it gives way, and limits where they carry nothing.
+  // Changed: free rows are others than the factor's, but for those of the tail, which leaves out
+  // itself what is held.
+  void (*keepCarrying)(const System&, bool (&changed)[W]);
+  void (*stiffen)(const System&);  // of bodies, by lambda of all that pulls
   void (*factorize)(const System&);
   void (*restore)(const System&, const JointKept<W>&);
   void (*findChanged)(const System&, bool (&changed)[W]);  // too much for the factor to serve

@@ -144,6 +144,36 @@ void aimAtVelocities(const Of<N>& s) {
   }
 }
 
+// physics/constraints/pull_stiffness.h
+template <class N>
+void stiffen(const Of<N>& s) {
+  const N zero = all<N>(0), one = all<N>(1);
+  for (int i = 0; i < s.bodyCount; ++i) {
+    for (Num<N::kWidth>& entry : s.bodies[i].stiffness) store(entry, zero);
+  }
+  for (int i = 0; i < s.rowCount; ++i) {
+    const JointShape& shape = s.shapes[i];
+    if (!shape.pulls) continue;
+    const auto& row = s.rows[i];
+    for (int b = 0; b < shape.bodyCount; ++b) {
+      if (!shape.moves[b]) continue;
+      Triple<N> f = {zero, zero, zero};
+      if (shape.isGap) f = b == 0 ? load3<N>(row.lambda) : f - load3<N>(row.lambda);
+      for (int r = 0; !shape.isGap && r < shape.rows; ++r) {
+        f = f + load3<N>(row.linear[b] + 3 * r) * load(row.lambda[r]);
+      }
+      const N along = dot(f, load3<N>(row.arm[b])), squared = squaredNorm(f);
+      const auto add = [&](int k, N first, N second) {
+        auto& entry = s.bodies[shape.body[b]].stiffness[k];
+        const N across = (k < 3 ? one : zero) - first * second / squared;
+        store(entry, load(entry) + wherePositive(along, along * across, zero));
+      };
+      add(0, f.x, f.x), add(1, f.y, f.y), add(2, f.z, f.z);
+      add(3, f.x, f.y), add(4, f.x, f.z), add(5, f.y, f.z);
+    }
+  }
+}
+
 template <class N>
 void substitute(const Of<N>& s) {
   for (int i = 0; i < s.tailStart; ++i) {
@@ -262,9 +292,10 @@ void apply(const Of<N>& s) {
 
 template <class N>
 constexpr JointKernels<N::kWidth> tableOf() {
-  return {place<N>,     turnBack<N>,        seeGaps<N>,     seeLimits<N>,  chooseLimits<N>,
-          factorize<N>, restore<N>,         findChanged<N>, respondAll<N>, aimAtErrors<N>,
-          findOpen<N>,  aimAtVelocities<N>, substitute<N>,  follow<N>,     apply<N>};
+  return {place<N>,        turnBack<N>,     seeGaps<N>,     seeLimits<N>, begin<N>,
+          chooseLimits<N>, keepCarrying<N>, stiffen<N>,     factorize<N>, restore<N>,
+          findChanged<N>,  respondAll<N>,   aimAtErrors<N>, findOpen<N>,  aimAtVelocities<N>,
+          substitute<N>,   follow<N>,       apply<N>};
 }
 
 }  // namespace

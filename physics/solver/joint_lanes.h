@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "physics/bodies/body.h"
+#include "physics/solver/articulation.h"
 #include "physics/solver/joint_row.h"
 
 namespace physics {
@@ -38,6 +39,14 @@ template <int W>
 void writeSymmetric(Num<W>* to, int l, const Mat3& m) {
   const double entries[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
   for (int k = 0; k < 6; ++k) to[k].v[l] = entries[k];
+}
+
+template <int W>
+Mat3 readSymmetric(const Num<W>* from, int l) {
+  const auto entry = [&](int k) { return from[k].v[l]; };
+  Mat3 m;
+  m << entry(0), entry(3), entry(4), entry(3), entry(1), entry(5), entry(4), entry(5), entry(2);
+  return m;
 }
 
 template <int W>

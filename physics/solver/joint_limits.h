@@ -156,14 +156,53 @@ N differ(N a, N b) {
   return wherePositive(a - b, all<N>(1), wherePositive(b - a, all<N>(1), all<N>(0)));
 }
 
-// A limit is free where it would move into what it may do.
+// A limit is free where it would move into what it may do, and where it carried in the last
+// substep: where only one of two is, what it gives takes the bodies beyond the other, and they take
+// turns.
 template <class N>
-void chooseLimits(const Of<N>& s) {
+bool chooseLimits(const Of<N>& s) {
+  const N zero = all<N>(0);
+  bool some = false;
   for (int k = 0; k < s.rowCount; ++k) {
     if (!isLimit(s.shapes[k])) continue;
     auto& row = s.rows[k];
-    store(row.free, differ(within<N>(row, load(row.left[0]) - load(row.c[0])), all<N>(0)));
+    const N free = differ(within<N>(row, load(row.left[0]) - load(row.c[0])), zero);
+    const N more = wherePositive(free, zero, load(row.carried));
+    some = some || anyPositive(more);
+    store(row.free, free + more);
   }
+  return some;
+}
+
+template <class N>
+void begin(const Of<N>& s) {
+  const N zero = all<N>(0);
+  for (int k = 0; k < s.rowCount; ++k) {
+    auto& row = s.rows[k];
+    const bool byKind = s.shapes[k].seen == JointSeen::kByKind;
+    if (isLimit(s.shapes[k])) store(row.carried, differ(load(row.lambda[0]), zero));
+    store3(row.lambda, Triple<N>{zero, zero, zero});
+    store3(row.right, Triple<N>{zero, zero, zero});
+    store(row.free, all<N>(byKind ? 0 : 1));
+  }
+}
+
+template <class N>
+void keepCarrying(const Of<N>& s, bool (&changed)[N::kWidth]) {
+  const N zero = all<N>(0), one = all<N>(1);
+  N most = zero;
+  for (int k = 0; k < s.rowCount; ++k) {
+    const JointShape& shape = s.shapes[k];
+    if (shape.seen == JointSeen::kByKind) continue;
+    auto& row = s.rows[k];
+    const N carries = isLimit(shape) ? differ(load(row.lambda[0]), zero) : one;
+    const N free = wherePositive(load(row.regularisation), zero, shape.stands ? carries : zero);
+    if (k < s.tailStart) most = larger(most, differ(free, load(row.free)));
+    store(row.free, free);
+  }
+  Num<N::kWidth> flags;
+  store(flags, most);
+  for (int l = 0; l < N::kWidth; ++l) changed[l] = flags.v[l] > 0;
 }
 
 }  // namespace

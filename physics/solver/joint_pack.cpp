@@ -2,7 +2,6 @@
 // is here, what does not is in the kernels.
 #include <algorithm>
 
-#include "physics/constraints/pull_stiffness.h"
 #include "physics/solver/articulation.h"
 #include "physics/solver/joint_lanes.h"
 
@@ -127,22 +126,11 @@ void JointPack<W>::place(bool back) {
 }
 
 template <int W>
-void JointPack<W>::stiffen(std::span<Mat3> stiffness) const {
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (!topology_->shapes[i].pulls) continue;
-    const JointShape& shape = topology_->shapes[i];
-    const JointLanes<W>& row = rows_[i];
-    for (int b = 0; b < shape.bodyCount; ++b) {
-      if (!shape.moves[b]) continue;
-      for (int l = 0; l < lanes_; ++l) {
-        const Vec3 arm = read(row.arm[b], l), lambda = read(row.lambda, l);
-        Vec3 force = b == 0 ? lambda : -lambda;
-        if (!shape.isGap) {
-          force.setZero();
-          for (int r = 0; r < shape.rows; ++r) force += lambda[r] * read(row.linear[b] + 3 * r, l);
-        }
-        stiffness[ids_[shape.body[b] * W + l]] += pullStiffness(force, arm);
-      }
+void JointPack<W>::stiffen(std::span<Mat3> stiffness) {
+  jointKernels<W>().stiffen(view());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    for (int l = 0; topology_->moves[i] && l < lanes_; ++l) {
+      stiffness[ids_[i * W + l]] = readSymmetric(bodies_[i].stiffness, l);
     }
   }
 }
@@ -191,7 +179,6 @@ void JointPack<W>::setFree(int i, int l, bool free) {
 template <int W>
 bool JointPack<W>::givesWay(int i, int l) const {
   if (rows_[i].regularisation.v[l] > 0 || !topology_->shapes[i].stands) return true;
-  if (topology_->shapes[i].seen != JointSeen::kByKind) return false;
   return states_[i].role[l] != JointRow::Role::kConstraint || hasAlpha(rows_[i], l);
 }
 
@@ -219,15 +206,11 @@ void JointPack<W>::leave(const JointStage& stage, double most) {
 
 template <int W>
 void JointPack<W>::begin() {
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const int i = static_cast<int>(k);
+  jointKernels<W>().begin(view());
+  for (const int i : topology_->others) {
     JointLanes<W>& row = rows_[i];
-    const bool byKind = topology_->shapes[i].seen == JointSeen::kByKind;
-    for (int l = 0; l < W; ++l) {
-      write(row.lambda, l, Vec3::Zero());
-      write(row.right, l, Vec3::Zero());
-      row.free.v[l] = byKind ? 0 : 1;
-      if (!byKind || l >= lanes_ || !states_[i].active[l]) continue;
+    for (int l = 0; l < lanes_; ++l) {
+      if (!states_[i].active[l]) continue;
       if (states_[i].role[l] != JointRow::Role::kLoad) {
         row.free.v[l] = 1;
         continue;
@@ -240,28 +223,13 @@ void JointPack<W>::begin() {
   stale_.fill(true);
 }
 
-// Limits that carried in the last substep are free as well: where only one of two is, what it gives
-// takes the bodies beyond the other, and they take turns.
-template <int W>
-void JointPack<W>::chooseCarrying() {
-  bool any = false;
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    for (int l = 0; l < lanes_; ++l) {
-      if (!(rows_[k].carried.v[l] > 0) || rows_[k].free.v[l] > 0) continue;
-      setFree(static_cast<int>(k), l, true);
-      any = true;
-    }
-  }
-  if (!any) return;
-  findUsed();
-  jointKernels<W>().seeLimits(view(), false);
-}
-
 // A constraint at its bound is free where it would move into what it may do.
 template <int W>
 void JointPack<W>::chooseFree() {
-  jointKernels<W>().chooseLimits(view());
-  chooseCarrying();
+  if (jointKernels<W>().chooseLimits(view())) {
+    findUsed();
+    jointKernels<W>().seeLimits(view(), false);
+  }
   for (const int i : topology_->others) {
     const JointLanes<W>& row = rows_[i];
     for (int l = 0; l < lanes_; ++l) {
@@ -372,12 +340,19 @@ void JointPack<W>::noteSeen() {
 // A step of Newton's from what was seen last.
 template <int W>
 void JointPack<W>::step() {
+  factorizeStale();
+  jointKernels<W>().aimAtErrors(view());
+  stepToAim();
+}
+
+template <int W>
+void JointPack<W>::stepToAim() {
   const JointKernels<W>& kernels = jointKernels<W>();
   for (int round = 1;; ++round) {
-    factorizeStale();
-    kernels.aimAtErrors(view());
     kernels.substitute(view());
     if (round == kMostRounds || !holdAtBounds()) break;
+    factorizeStale();
+    kernels.aimAtErrors(view());
   }
   kernels.apply(view());
 }
@@ -453,7 +428,6 @@ void JointPack<W>::seePositions(const JointStage& stage) {
   }
   see(stage, true);
   noteSeen();
-  noteCarried();
   begin();
   chooseFree();
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
@@ -565,9 +539,11 @@ void JointPack<W>::goToPredicted(std::span<const Displacement> predicted, int l)
   }
 }
 
-// Of those that are far, lanes that the last step took further off keep half of it, and wait.
+// Of those that are far, lanes that the last step took further off keep half of it, and wait. True:
+// there are some.
 template <int W>
-void JointPack<W>::goBack(const Num<W>& far) {
+bool JointPack<W>::goBack(const Num<W>& far) {
+  bool some = false;
   for (int l = 0; l < lanes_; ++l) {
     if (!(far.v[l] > 0) || !(open_.v[l] > 0)) continue;
     const double off = offOf(l);
@@ -578,7 +554,9 @@ void JointPack<W>::goBack(const Num<W>& far) {
     goBack(l, 0.5);
     stale_[l] = true;
     open_.v[l] = 0;
+    some = true;
   }
+  return some;
 }
 
 template <int W>
@@ -664,15 +642,19 @@ void JointPack<W>::closePositions(const JointStage& stage,
     see(stage, false);
     noteSeen();
     if (k == 0 && !stage.spin.empty()) stale_.fill(true);  // the factor is of arms turned back
+    factorizeStale();
     kernels.aimAtErrors(view());
     const Num<W> open = open_;
     const bool isFar = kernels.findOpen(view(), kClosed), isLast = k == kMostSteps;
     const Num<W> far = open_;
     open_ = open;
-    if (isFar && isLast) giveUp(far);
-    if (isFar) goBack(far);
-    step();
-    if (!isFar) break;
+    if (!isFar) {
+      stepToAim();
+      break;
+    }
+    if (isLast) giveUp(far);
+    const bool goes = goBack(far);
+    goes || isLast ? step() : stepToAim();
     open_ = far;
     if (isLast) {
       leaveOpen(stage, predicted);
@@ -685,16 +667,13 @@ void JointPack<W>::closePositions(const JointStage& stage,
 template <int W>
 void JointPack<W>::prepareVelocities(const JointStage& stage) {
   const JointKernels<W>& kernels = jointKernels<W>();
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const int i = static_cast<int>(k);
-    const JointLanes<W>& row = rows_[i];
-    const JointShape& shape = topology_->shapes[i];
-    const bool byKind = shape.seen == JointSeen::kByKind;
+  bool changed[W];
+  kernels.keepCarrying(view(), changed);
+  for (int l = 0; l < W; ++l) stale_[l] = stale_[l] || changed[l];
+  for (const int i : topology_->others) {
     for (int l = 0; l < W; ++l) {
-      bool free = !givesWay(i, l);
-      if (byKind) free = free && l < lanes_ && states_[i].active[l];
-      const bool bounded = byKind ? free && isBounded(row, l) : isLimit(shape);
-      setFree(i, l, free && (!bounded || !read(row.lambda, l).isZero(0)));
+      const bool free = l < lanes_ && states_[i].active[l] && !givesWay(i, l);
+      setFree(i, l, free && (!isBounded(rows_[i], l) || !read(rows_[i].lambda, l).isZero(0)));
     }
   }
   gatherPoses<W>(ids_, stage.pose, bodies_);
@@ -702,7 +681,6 @@ void JointPack<W>::prepareVelocities(const JointStage& stage) {
   kernels.seeGaps(view(), false);
   kernels.seeLimits(view(), false);
   seeOthers(stage, false, false);
-  bool changed[W];
   kernels.findChanged(view(), changed);
   // Where rows repeat each other, what they share is another thing after the smallest turn; and of
   // what contacts see of joints, a part in ten of the error is more than all of a light body's.
@@ -775,16 +753,6 @@ void JointPack<W>::solveOpenVelocities() {
     if (round == kMostRounds || !holdAtBounds()) break;
   }
   kernels.apply(view());
-}
-
-template <int W>
-void JointPack<W>::noteCarried() {
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    if (!isLimit(topology_->shapes[k])) continue;
-    for (int l = 0; l < lanes_; ++l) {
-      rows_[k].carried.v[l] = rows_[k].lambda[0].v[l] != 0 ? 1 : 0;
-    }
-  }
 }
 
 template <int W>

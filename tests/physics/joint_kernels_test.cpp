@@ -2,9 +2,12 @@
 // beside.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <random>
 
+#include "physics/constraints/pull_stiffness.h"
+#include "physics/solver/joint_lanes.h"
 #include "physics/solver/joint_topology.h"
 #include "physics/world.h"
 #include "tests/physics/stage.h"
@@ -110,6 +113,7 @@ struct Memory {
     kernels.turnBack(s);
     kernels.seeGaps(s, true);
     kernels.seeLimits(s, true);
+    kernels.begin(s);
     kernels.chooseLimits(s);
     kernels.factorize(s);
     kernels.aimAtErrors(s);
@@ -117,6 +121,7 @@ struct Memory {
     kernels.apply(s);
     kernels.seeLimits(s, false);
     bool changed[W];
+    kernels.keepCarrying(s, changed);
     kernels.findChanged(s, changed);
     kernels.respond(s);
     kernels.aimAtVelocities(s);
@@ -126,6 +131,7 @@ struct Memory {
     kernels.aimAtVelocities(s);
     kernels.substitute(s);
     kernels.apply(s);
+    kernels.stiffen(s);
   }
   // Where the seed is odd; the other lanes keep what they have.
   void refactorizeOdd(const JointKernels<W>& kernels) {
@@ -167,8 +173,34 @@ void expectBytesOfOne() {
         EXPECT_EQ(one.bodies[body].u[k].v[0], wide.bodies[body].u[k].v[l]) << l;
         EXPECT_EQ(one.bodies[body].theta[k].v[0], wide.bodies[body].theta[k].v[l]) << l;
       }
+      for (int k = 0; k < 6; ++k) {
+        EXPECT_EQ(one.bodies[body].stiffness[k].v[0], wide.bodies[body].stiffness[k].v[l]) << l;
+      }
     }
   }
+}
+
+TEST(JointKernels, StiffenByWhatAllGapsOfABodyPullWith) {
+  Memory<1> memory;
+  memory.fill(0, 1);
+  memory.work(jointKernels<1>());
+  std::array<Mat3, 3> sums;
+  sums.fill(Mat3::Zero());
+  for (std::size_t i = 0; i < memory.rows.size(); ++i) {
+    const JointShape& shape = memory.topology->shapes[i];
+    if (!shape.isGap) continue;
+    for (int b = 0; b < 2; ++b) {
+      const Vec3 lambda = read(memory.rows[i].lambda, 0);
+      const Vec3 force = b == 0 ? lambda : -lambda;
+      sums[shape.body[b]] += pullStiffness(force, read(memory.rows[i].arm[b], 0));
+    }
+  }
+  for (int body = 0; body < 3; ++body) {
+    if (!memory.topology->moves[body]) sums[body].setZero();
+    const Mat3 got = readSymmetric(memory.bodies[body].stiffness, 0);
+    EXPECT_LT((got - sums[body]).norm(), 1e-12 * (1 + sums[body].norm())) << body;
+  }
+  EXPECT_GT(sums[1].norm() + sums[2].norm() + sums[0].norm(), 1e-6);  // something pulls
 }
 
 TEST(JointKernels, GiveALaneTheBytesThatItHasAlone) { expectBytesOfOne<4>(); }
