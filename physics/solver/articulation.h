@@ -209,7 +209,7 @@ class JointPack {
   void goBack(int lane, double keeps);
   void goToPredicted(std::span<const Displacement> predicted, int lane);
   bool goBack(const Num<W>& far);
-  void begin();
+  void giveLoads();
   void chooseFree();
   void setFree(int row, int lane, bool free);
   void factorize();

@@ -136,12 +136,12 @@ struct JointKernels {
   void (*place)(const System&);               // x, q: the start moved by u
   void (*turnBack)(const System&);            // q to backQ
   void (*seeGaps)(const System&, bool back);  // c of gaps at x, q, and J there or at x, backQ
-  // c, J and bounds of cones and twists: of all, where only the sign of c counts, or of those used.
+  // c, J and bounds of cones and twists: of those used, or of all, where only the sign of c counts
+  // unless they carried in the last substep.
   void (*seeLimits)(const System&, bool all);
   void (*begin)(const System&);  // lambda = 0 of what the kernels evaluate
   // Limits are free where lambda = 0 is no solution, and where they carried in the last substep.
-  // True: there are some that are for that alone.
-  bool (*chooseLimits)(const System&);
+  void (*chooseLimits)(const System&);
   // Of what the kernels evaluate: held where it gives way, and limits where they carry nothing.
   // Changed: free rows are others than the factor's, but for those of the tail, which leaves out
   // itself what is held.

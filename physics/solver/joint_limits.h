@@ -56,6 +56,17 @@ void oppose(JointLanes<N::kWidth>& row, const Triple<N>& gradient) {
   store3(row.angular[1], gradient);
 }
 
+template <class N>
+bool areAllPositive(N test) {
+  return !anyPositive(wherePositive(test, all<N>(0), all<N>(1)));
+}
+
+// `inside` of what did not carry in the last substep; of what did, 0: it is evaluated.
+template <class N>
+N idle(const JointLanes<N::kWidth>& row, N inside) {
+  return wherePositive(load(row.carried), all<N>(0), inside);
+}
+
 // The direction of n_i x n_j, or any normal where they are parallel.
 template <class N>
 Triple<N> turningAxis(const Triple<N>& cross, N sine, const Triple<N>& ni) {
@@ -81,15 +92,16 @@ void seeCone(const JointBody<N::kWidth>& i, const JointBody<N::kWidth>& j, bool 
              JointLanes<N::kWidth>& row) {
   const Triple<N> ni = turned<N>(i.q, load3<N>(row.fixed)),
                   nj = turned<N>(j.q, load3<N>(row.fixed + 3));
-  const N cosine = dot(ni, nj), inside = cosine - load(row.fixed[7]);
+  const N cosine = dot(ni, nj);
+  const N inside = every ? idle(row, cosine - load(row.fixed[7])) : all<N>(0);
   store(row.low, all<N>(-kNoBound));
   store(row.high, all<N>(0));
   store(row.c[0], all<N>(kInside));
-  if (every && !anyPositive(wherePositive(inside, all<N>(0), all<N>(1)))) return;
+  if (areAllPositive(inside)) return;
   const Triple<N> normal = cross(ni, nj);
   const N sine = root(dot(normal, normal));
   const N c = arcTangent(sine, cosine) - load(row.fixed[6]);
-  store(row.c[0], every ? wherePositive(inside, all<N>(kInside), c) : c);
+  store(row.c[0], wherePositive(inside, all<N>(kInside), c));
   oppose(row, turningAxis(normal, sine, ni));
 }
 
@@ -112,20 +124,20 @@ void seeTwist(const JointBody<N::kWidth>& i, const JointBody<N::kWidth>& j, bool
   w = w * sign;
   v = v * sign;
   const N a = dot(v, n);
-  const N inside = smaller(a - load(row.fixed[9]) * w, load(row.fixed[10]) * w - a);
+  const N within = smaller(a - load(row.fixed[9]) * w, load(row.fixed[10]) * w - a);
+  const N inside = every ? idle(row, within) : zero;
   store(row.low, all<N>(-kNoBound));
   store(row.high, zero);
   store(row.c[0], all<N>(kInside));
-  if (every && !anyPositive(wherePositive(inside, zero, all<N>(1)))) return;
+  if (areAllPositive(inside)) return;
   const N squared = w * w + a * a, tau = all<N>(2) * arcTangent(a, w);
   const N fromLow = tau - load(row.fixed[7]), toHigh = load(row.fixed[8]) - tau;
   const N nearHigh = fromLow - toHigh;
   const N c = wherePositive(nearHigh, zero - toHigh, fromLow);
-  const N within = every ? inside : zero;
-  store(row.c[0], wherePositive(within, all<N>(kInside), c));
+  store(row.c[0], wherePositive(inside, all<N>(kInside), c));
   store(row.low,
-        wherePositive(nearHigh, all<N>(-kNoBound), wherePositive(within, all<N>(-kNoBound), zero)));
-  store(row.high, wherePositive(nearHigh, zero, wherePositive(within, zero, all<N>(kNoBound))));
+        wherePositive(nearHigh, all<N>(-kNoBound), wherePositive(inside, all<N>(-kNoBound), zero)));
+  store(row.high, wherePositive(nearHigh, zero, wherePositive(inside, zero, all<N>(kNoBound))));
   const N defined = squared - all<N>(1e-12);
   const N scale = all<N>(1) / wherePositive(defined, squared, all<N>(1));
   const Triple<N> inI = ((n * w + cross(v, n)) * w + v * a) * scale;
@@ -160,18 +172,14 @@ N differ(N a, N b) {
 // substep: where only one of two is, what it gives takes the bodies beyond the other, and they take
 // turns.
 template <class N>
-bool chooseLimits(const Of<N>& s) {
+void chooseLimits(const Of<N>& s) {
   const N zero = all<N>(0);
-  bool some = false;
   for (int k = 0; k < s.rowCount; ++k) {
     if (!isLimit(s.shapes[k])) continue;
     auto& row = s.rows[k];
     const N free = differ(within<N>(row, load(row.left[0]) - load(row.c[0])), zero);
-    const N more = wherePositive(free, zero, load(row.carried));
-    some = some || anyPositive(more);
-    store(row.free, free + more);
+    store(row.free, wherePositive(free, free, load(row.carried)));
   }
-  return some;
 }
 
 template <class N>

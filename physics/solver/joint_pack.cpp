@@ -205,8 +205,7 @@ void JointPack<W>::leave(const JointStage& stage, double most) {
 }
 
 template <int W>
-void JointPack<W>::begin() {
-  jointKernels<W>().begin(view());
+void JointPack<W>::giveLoads() {
   for (const int i : topology_->others) {
     JointLanes<W>& row = rows_[i];
     for (int l = 0; l < lanes_; ++l) {
@@ -226,10 +225,7 @@ void JointPack<W>::begin() {
 // A constraint at its bound is free where it would move into what it may do.
 template <int W>
 void JointPack<W>::chooseFree() {
-  if (jointKernels<W>().chooseLimits(view())) {
-    findUsed();
-    jointKernels<W>().seeLimits(view(), false);
-  }
+  jointKernels<W>().chooseLimits(view());
   for (const int i : topology_->others) {
     const JointLanes<W>& row = rows_[i];
     for (int l = 0; l < lanes_; ++l) {
@@ -426,9 +422,10 @@ void JointPack<W>::seePositions(const JointStage& stage) {
     std::copy(std::begin(body.x), std::end(body.x), std::begin(body.startX));
     std::copy(std::begin(body.q), std::end(body.q), std::begin(body.startQ));
   }
+  jointKernels<W>().begin(view());
   see(stage, true);
   noteSeen();
-  begin();
+  giveLoads();
   chooseFree();
   scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
 }
