@@ -2,6 +2,7 @@
 #include "physics/solver/articulation.h"
 
 #include <algorithm>
+#include <bit>
 #include <set>
 
 #include "physics/base/archive.h"
@@ -50,6 +51,39 @@ void Articulation::archive(Archive& a) {
   a(holdsBothWays_, givesWay_, isOpened_);
 }
 
+// A bit for each limit that carried in the last step, by 64.
+std::uint64_t Articulation::carryingLimits() const {
+  std::uint64_t bits = 0;
+  for (std::size_t i = topology_->tailStart; i < pulls_.size(); ++i) {
+    if (pulls_[i].lambda[0] != 0) bits |= std::uint64_t{1} << (i - topology_->tailStart) % 64;
+  }
+  return bits;
+}
+
+// A limit that is free in one lane is solved for in all of them: to each one are taken those that
+// add the fewest, of the next `most` to the second.
+void JointPacks::groupAlike(std::vector<Articulation*>& list, std::size_t most) {
+  if (list.size() <= most) return;
+  limits_.clear();
+  for (const Articulation* of : list) limits_.push_back(of->carryingLimits());
+  std::uint64_t together = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (k % most == 0) {
+      together = limits_[k];
+      continue;
+    }
+    std::size_t best = k;
+    int fewest = 64;
+    for (std::size_t i = k; i < std::min(k + most * most, list.size()) && fewest > 0; ++i) {
+      const int adds = std::popcount(limits_[i] & ~together);
+      if (adds < fewest) best = i, fewest = adds;
+    }
+    together |= limits_[best];
+    std::rotate(list.begin() + k, list.begin() + best, list.begin() + best + 1);
+    std::rotate(limits_.begin() + k, limits_.begin() + best, limits_.begin() + best + 1);
+  }
+}
+
 template <class F>
 void JointPacks::forEach(F&& f) {
   const auto ofWidth = [&](auto& packs) {
@@ -71,7 +105,8 @@ void JointPacks::take(std::span<Articulation> articulations, std::span<const int
   };
   std::apply([](auto&... packs) { ((packs.count = 0), ...); }, packs_);
   const std::size_t most = mostJointLanes();
-  for (const auto& list : byTopology_) {
+  for (auto& list : byTopology_) {
+    groupAlike(list, most);
     for (std::size_t k = 0; k < list.size(); k += most) {
       const std::span of = std::span(list).subspan(k, std::min(most, list.size() - k));
       if (of.size() == 1) {

@@ -10,6 +10,7 @@
 // step side by side, one to a lane; what is done in one knows nothing of the others.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -115,6 +116,8 @@ class Articulation {
     std::array<Vec3, JointRow::kMostBodies> arm{Vec3::Zero(), Vec3::Zero()};
     std::array<Mat3, JointRow::kMostBodies> linear{Mat3::Zero(), Mat3::Zero()};  // but of gaps
   };
+  std::uint64_t carryingLimits() const;
+
   std::shared_ptr<const JointTopology> topology_;
   std::vector<JointRef> refs_;  // in the order of elimination
   std::vector<JointKind> kinds_;
@@ -296,6 +299,7 @@ class JointPacks {
   void finish(Kinds& kinds, double h);
 
  private:
+  void groupAlike(std::vector<Articulation*>& list, std::size_t most);
   template <class F>
   void forEach(F&& f);
   template <int W>
@@ -305,6 +309,7 @@ class JointPacks {
   };
   std::tuple<Packs<1>, Packs<4>, Packs<8>> packs_;
   std::vector<std::vector<Articulation*>> byTopology_;
+  std::vector<std::uint64_t> limits_;  // scratch, of a list
 };
 
 }  // namespace physics

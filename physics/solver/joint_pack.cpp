@@ -19,7 +19,8 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
   lanes_ = static_cast<int>(articulations.size());
   std::array<Articulation*, W> of;
   for (int l = 0; l < W; ++l) of[l] = articulations[l < lanes_ ? l : 0];
-  const bool isSame = topology_ == of[0]->topology_ && of == of_;
+  const bool isSame = topology_ == of[0]->topology_;
+  const std::array<Articulation*, W> were = of_;
   of_ = of;
   for (int l = 0; l < lanes_; ++l) of_[l]->isOpened_ = false;
   ids_.resize(of[0]->all_.size() * W);
@@ -51,10 +52,10 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
   }
   takePulls();
   for (JointLanes<W>& row : rows_) std::fill(std::begin(row.left), std::end(row.left), Num<W>{});
-  if (isSame) return;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    JointLanes<W>& row = rows_[i];
-    for (int l = 0; l < W; ++l) {
+  for (int l = 0; l < W; ++l) {
+    if (isSame && of_[l] == were[l]) continue;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      JointLanes<W>& row = rows_[i];
       const JointKind& kind = of_[l]->kinds_[i];
       row.regularisation.v[l] = kind.regularisation;
       row.longest.v[l] = std::numeric_limits<double>::infinity();
