@@ -335,9 +335,7 @@ void findChanged(const Of<N>& s, bool (&changed)[N::kWidth]) {
     most = larger(most, squaredNorm(turned) - all<N>(kKeptTurn * kKeptTurn));
     most = larger(most, more - all<N>(kKeptMass) * before);
   }
-  Num<N::kWidth> flags;
-  store(flags, most);
-  for (int l = 0; l < N::kWidth; ++l) changed[l] = flags.v[l] > 0;
+  storePositive(most, changed);
 }
 
 template <class N>

@@ -208,9 +208,7 @@ void keepCarrying(const Of<N>& s, bool (&changed)[N::kWidth]) {
     if (k < s.tailStart) most = larger(most, differ(free, load(row.free)));
     store(row.free, free);
   }
-  Num<N::kWidth> flags;
-  store(flags, most);
-  for (int l = 0; l < N::kWidth; ++l) changed[l] = flags.v[l] > 0;
+  storePositive(most, changed);
 }
 
 }  // namespace

@@ -183,6 +183,14 @@ inline void store3(Num<N::kWidth>* p, const Triple<N>& a) {
   store(p[2], a.z);
 }
 
+// By lane: it is > 0.
+template <class N>
+inline void storePositive(N test, bool (&to)[N::kWidth]) {
+  Num<N::kWidth> flags;
+  store(flags, test);
+  for (int l = 0; l < N::kWidth; ++l) to[l] = flags.v[l] > 0;
+}
+
 template <class N>
 using Of = JointView<N::kWidth>;
 

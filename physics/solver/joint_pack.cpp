@@ -19,13 +19,13 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
   lanes_ = static_cast<int>(articulations.size());
   std::array<Articulation*, W> of;
   for (int l = 0; l < W; ++l) of[l] = articulations[l < lanes_ ? l : 0];
-  const bool isSame = topology_ == of[0]->topology_;
+  const bool isNew = topology_ != of[0]->topology_;
   const std::array<Articulation*, W> were = of_;
   of_ = of;
   for (int l = 0; l < lanes_; ++l) of_[l]->isOpened_ = false;
   ids_.resize(of[0]->all_.size() * W);
   for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = of[i % W]->all_[i / W];
-  if (topology_ != of_[0]->topology_) {
+  if (isNew) {
     topology_ = of_[0]->topology_;
     bodies_.assign(topology_->bodyCount, JointBody<W>{});
     rows_.assign(topology_->shapes.size(), JointLanes<W>{});
@@ -53,7 +53,7 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
   takePulls();
   for (JointLanes<W>& row : rows_) std::fill(std::begin(row.left), std::end(row.left), Num<W>{});
   for (int l = 0; l < W; ++l) {
-    if (isSame && of_[l] == were[l]) continue;
+    if (!isNew && of_[l] == were[l]) continue;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       JointLanes<W>& row = rows_[i];
       const JointKind& kind = of_[l]->kinds_[i];
@@ -205,6 +205,7 @@ void JointPack<W>::leave(const JointStage& stage, double most) {
   }
 }
 
+// Of what kinds evaluate: loads are given, and all else that is active is solved for.
 template <int W>
 void JointPack<W>::giveLoads() {
   for (const int i : topology_->others) {
@@ -342,6 +343,7 @@ void JointPack<W>::step() {
   stepToAim();
 }
 
+// The same, of what is aimed at already.
 template <int W>
 void JointPack<W>::stepToAim() {
   const JointKernels<W>& kernels = jointKernels<W>();
@@ -646,13 +648,10 @@ void JointPack<W>::closePositions(const JointStage& stage,
     const bool isFar = kernels.findOpen(view(), kClosed), isLast = k == kMostSteps;
     const Num<W> far = open_;
     open_ = open;
-    if (!isFar) {
-      stepToAim();
-      break;
-    }
-    if (isLast) giveUp(far);
-    const bool goes = goBack(far);
-    goes || isLast ? step() : stepToAim();
+    if (isFar && isLast) giveUp(far);
+    const bool isElsewhere = isFar && (goBack(far) || isLast);
+    isElsewhere ? step() : stepToAim();
+    if (!isFar) break;
     open_ = far;
     if (isLast) {
       leaveOpen(stage, predicted);
