@@ -23,6 +23,8 @@ namespace {
 constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
 // Of a step, each at its moment: what has more is no motion to follow.
 constexpr int kMostPlaces = 4;
+// Of a step: an impact takes no time, so that what moves in it is rounding.
+constexpr double kImpact = 1.0 / (1 << 30);
 // Of meshes every point errs in every step, and what has no powers of h shows otherwise: a column
 // leaves more than this of the error, as where links draw taut and go slack. A step for it would
 // have to end at each of them, so that what rows come to is taken as it is.
@@ -232,7 +234,7 @@ void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
   trial.extent = sizeOf(w.bodies, batch);
   trial.allowed = allowedError(w);
   trial.flights = 0;
-  trial.hits = trial.isLaidOut = trial.needsMore = false;
+  trial.isLaidOut = trial.needsMore = false;
   trial.told = {};
   trial.levers.clear();
   for (const BodyId i : batch.bodies) {
@@ -325,12 +327,15 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
   StepChoice& choice = choices[batch.bodies.front()];
   const double dt = w.settings.dt;
+  const bool givesBack = w.bodies.mostRestitution > 0;
+  trial.hits = false;
   while (trial.left > 0 && trial.flights < kMostPlaces) {
     const double flown = flyToTouch(w, batch, trial.left);
-    if (!(flown > 0)) break;
+    const bool isNew = flown > 0 || (givesBack && meets(w, batch, trial.left));
     trial.left = flown == trial.left ? 0 : trial.left - flown;
-    trial.hits = w.bodies.mostRestitution > 0;
-    ++trial.flights;
+    trial.flights += isNew;
+    trial.hits = givesBack && (trial.hits || isNew);
+    if (!(flown > 0)) break;
   }
   if (!(trial.left > 0)) return false;
   keepStart(w, batch);
@@ -338,13 +343,17 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   const double off = missedBy(batch);
   trial.allowed = std::max(allowedError(w), kShareOfFrame * off);
   trial.isOneRow = mayTakeOneRow(w, trial);
-  trial.isRough = !trial.isOneRow && off > std::max(*w.settings.accuracy, kLost);
-  const bool isWhole = trial.isOneRow || trial.isRough;
-  const double next = trial.hits ? 0 : isWhole ? trial.left : choice.next(trial.left, dt);
-  const double wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
-  trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
-  trial.isLost = !trial.isOneRow && choice.lost() > 0;
-  trial.columns = trial.isOneRow || trial.isLost ? 1 : choice.columns();
+  trial.isRough = !trial.hits && !trial.isOneRow && off > std::max(*w.settings.accuracy, kLost);
+  trial.isLost = !trial.hits && !trial.isOneRow && choice.lost() > 0;
+  if (trial.hits) {
+    trial.whole = std::min(kImpact * dt, trial.left);
+  } else {
+    const bool isWhole = trial.isOneRow || trial.isRough;
+    const double next = isWhole ? trial.left : choice.next(trial.left, dt),
+                 wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
+    trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
+  }
+  trial.columns = trial.hits || trial.isOneRow || trial.isLost ? 1 : choice.columns();
   trial.most =
       std::max(trial.columns, static_cast<int>(std::ceil(batch.substeps * trial.whole / dt)));
   return true;
@@ -457,7 +466,7 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   StepChoice& choice = choices[batch.bodies.front()];
   const double dt = w.settings.dt, allowed = trial.allowed;
   const bool isLost = trial.changes > kMostPlaces;
-  const bool isKnown = trial.columns > 1 || trial.isOneRow;
+  const bool isKnown = trial.columns > 1 || trial.isOneRow || trial.hits;
   const bool isSmall = isKnown && trial.error <= allowed;
   const bool isFew = (!batch.deformables.empty() || trial.places <= kMostPlaces) && !isLost;
   const bool mayDivide = trial.whole > kLeastPart * dt && isFew && !trial.isRough;
@@ -491,9 +500,10 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   noteMotion(w, trial);
   if (isSmall) trial.told.order = std::max(trial.told.order, trial.isOneRow ? 1 : choice.columns());
   ++trial.told.accepted;
-  trial.told.least = trial.told.least > 0 ? std::min(trial.told.least, trial.whole) : trial.whole;
+  if (!trial.hits) {
+    trial.told.least = trial.told.least > 0 ? std::min(trial.told.least, trial.whole) : trial.whole;
+  }
   trial.told.estimate += trial.error;
-  trial.hits = false;
   trial.left = trial.whole == trial.left ? 0 : trial.left - trial.whole;
   return true;
 }
@@ -501,7 +511,9 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
 // What its rows err by. True: it goes on with one more column.
 bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
   StepChoice& choice = choices[batches[trial.batch].bodies.front()];
-  if (trial.isOneRow) {
+  if (trial.hits) {
+    trial.error = kImpact * wayAhead(w, trial);
+  } else if (trial.isOneRow) {
     const double way = wayOf(w, trial);
     trial.oneRowErrs = errorOfOneRow(w, trial);
     const bool isExact = trial.oneRowErrs <= kKnown;
@@ -536,8 +548,8 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
     }
     ends.push_back(isDone(w, *trial) ? Ended::kAccepted : Ended::kRejected);
     // What it ends with, or flies on from.
-    asks =
-        asks || (ends.back() == Ended::kAccepted && (!(trial->left > 0) || isOpen(w.bodies, own)));
+    asks = asks ||
+           (ends.back() == Ended::kAccepted && (!(trial->left > 0) || mayFly(w, own, trial->left)));
   }
   forEachPart(batch, [&](std::size_t i, int l, int part) {
     if (ends[part] != Ended::kAccepted) return;

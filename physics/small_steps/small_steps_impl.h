@@ -214,6 +214,7 @@ struct SmallSteps::Impl {
   std::vector<Accurate> accurate;  // islands without contacts that can step by an accuracy
   std::vector<int> accurateOf;     // by first body of these, -1: none
   std::vector<Pose> trialNow, trialStart, trialEnd;
+  std::vector<double> touchedAt;  // by contact of a batch: where it touched, its gap then [m]
   static constexpr int kMostTouchingColumns = 4;  // of 2 at least: one has no estimate
   std::vector<StepChoice> choices;                // by first body of an island that touches
   std::vector<double> oneRowErrs;     // the same: of its size, over a step; infinite: not known
@@ -498,8 +499,11 @@ struct SmallSteps::Impl {
   void fly(Model& w);
   void fly(const Model& w, BodyId i, double dt, Pose& pose, Velocity& v) const;
   double gapAtTrial(const Bodies& b, const KeptContact& c);
-  bool isOpen(const Bodies& b, const Batch& batch) const;
+  bool presses(const Model& w, const KeptContact& c, double time);
+  bool mayFly(const Model& w, const Batch& batch, double time);
+  bool meets(const Model& w, const Batch& batch, double time);
   double gapAfter(const Model& w, const Batch& batch, double time);
+  double bendOf(const Model& w, const Batch& batch) const;
   double flyToTouch(Model& w, const Batch& batch, double most);
   void rest(const Batch& batch);
   void finish(Model& w, Batch& batch, double h);

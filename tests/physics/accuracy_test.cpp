@@ -336,6 +336,66 @@ TEST(Accuracy, OfABouncingBallIsThatOfItsParabolas) {
   }
 }
 
+// An impact takes no time, wherever in a step it is: rods that fall askew get the impulse of the
+// closed form, J = (1 + e) m v / (1 + m x^2 / I) with the arm x, to rounding of single precision.
+TEST(Accuracy, OfAnImpactIsThatOfItsClosedForm) {
+  constexpr double e = 0.5, speed = 1, length = 1, radius = 0.002, mass = 1, inertia = mass / 12;
+  for (const double above : {0.003, 0.0101, 0.02, 0.0217}) {
+    Settings settings = asking(1e-1);
+    settings.gravity.reset();
+    settings.contact = ContactSettings{};
+    settings.contact->friction = {0, 0};
+    settings.contact->restitution = e;
+    World world(settings);
+    BodyDef floor;
+    floor.motion = Motion::kStatic;
+    floor.shape = Plane{};
+    world.add(floor);
+    std::vector<BodyId> rods;
+    for (int k = 1; k <= 5; ++k) {
+      const double lean = k * kPi / 12;
+      BodyDef rod;
+      rod.shape = Capsule{radius, length};  // along y
+      rod.mass = mass;
+      rod.inertia = Vec3(inertia, 1e-5, inertia);
+      rod.pose.x = Vec3(0, above + radius + length / 2 * std::sin(lean), k);
+      rod.pose.q = exponential(Vec3(0, 0, lean - kPi / 2));
+      rod.velocity.v = Vec3(0, -speed, 0);
+      rods.push_back(world.add(rod));
+    }
+    after(world, 2 * Settings{}.dt);
+    for (int k = 1; k <= 5; ++k) {
+      const double arm = length / 2 * std::cos(k * kPi / 12);
+      const double given = (1 + e) * speed / (1 + mass * arm * arm / inertia);
+      const Velocity& v = world.bodies().velocity[rods[k - 1]];
+      EXPECT_NEAR(v.v.y(), given - speed, 1e-9) << above << ' ' << k;
+      EXPECT_NEAR(std::abs(v.w.z()), given * arm * mass / inertia, 1e-8) << above << ' ' << k;
+    }
+  }
+}
+
+// What touches and is not pressed flies, and no step is made for it: three balls side by side that
+// are thrown up together.
+TEST(Accuracy, OfWhatTouchesInFreeFallIsThatOfItsParabola) {
+  constexpr double up = 3, seconds = 0.5;
+  World world = onFloor(1e-3, 0.5);
+  std::vector<BodyId> balls;
+  for (int k = 0; k < 3; ++k) {
+    BodyDef ball;
+    ball.shape = Sphere{0.1};
+    ball.pose.x = Vec3(0.2 * k, 0.1, 0);
+    ball.velocity.v = Vec3(1, up, 0);
+    balls.push_back(world.add(ball));
+  }
+  AccuracyReport report;
+  const std::vector<Pose> pose = after(world, seconds, &report);
+  EXPECT_EQ(report.accepted + report.rejected, 0);
+  const double height = 0.1 + (up - 0.5 * kGravity * seconds) * seconds;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_LT((pose[balls[k]].x - Vec3(0.2 * k + seconds, height, 0)).norm(), 1e-12) << k;
+  }
+}
+
 // A box slides to a stop: v^2/(2 nu g) far, the default being off by v h/2.
 TEST(Accuracy, FindsWhereSlidingEnds) {
   const auto slide = [](std::optional<double> accuracy) {
