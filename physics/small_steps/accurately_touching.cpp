@@ -234,7 +234,7 @@ void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
   trial.extent = sizeOf(w.bodies, batch);
   trial.allowed = allowedError(w);
   trial.flights = 0;
-  trial.isLaidOut = trial.needsMore = false;
+  trial.hits = trial.isLaidOut = trial.needsMore = false;
   trial.told = {};
   trial.levers.clear();
   for (const BodyId i : batch.bodies) {
@@ -327,11 +327,11 @@ bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
   StepChoice& choice = choices[batch.bodies.front()];
   const double dt = w.settings.dt;
-  const bool givesBack = w.bodies.mostRestitution > 0;
+  const bool givesBack = w.bodies.mostRestitution > 0, hasHit = trial.hits;
   trial.hits = false;
   while (trial.left > 0 && trial.flights < kMostPlaces) {
     const double flown = flyToTouch(w, batch, trial.left);
-    const bool isNew = flown > 0 || (givesBack && meets(w, batch, trial.left));
+    const bool isNew = flown > 0 || (givesBack && !hasHit && meets(w, batch, trial.left));
     trial.left = flown == trial.left ? 0 : trial.left - flown;
     trial.flights += isNew;
     trial.hits = givesBack && (trial.hits || isNew);
@@ -548,21 +548,24 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
     }
     ends.push_back(isDone(w, *trial) ? Ended::kAccepted : Ended::kRejected);
     // What it ends with, or flies on from.
-    asks = asks ||
-           (ends.back() == Ended::kAccepted && (!(trial->left > 0) || mayFly(w, own, trial->left)));
+    if (ends.back() != Ended::kAccepted || trial->hits) continue;
+    asks = asks || !(trial->left > 0) || mayFly(w, own, trial->left);
   }
   forEachPart(batch, [&](std::size_t i, int l, int part) {
-    if (ends[part] != Ended::kAccepted) return;
+    if (ends[part] != Ended::kAccepted || group[part]->hits) return;
     takeOver(w.bodies, batch.blocks[i], l);
     if (jumps(w, *group[part])) spreadJump(w, contacts[batch.blocks[i].contact[l]]);
   });
   for (std::size_t part = 0; part < group.size(); ++part) {
     if (ends[part] != Ended::kAccepted) continue;
-    const double h = group[part]->whole / group[part]->steps;
-    if (group[part]->columns > 1) {
-      holdLoads(w, *group[part]);
+    const Trial& trial = *group[part];
+    const double h = trial.whole / trial.steps;
+    if (trial.hits) {
+      unload(batches[trial.batch]);
+    } else if (trial.columns > 1) {
+      holdLoads(w, trial);
     } else {
-      for (const int k : batches[group[part]->batch].contacts) holdNoMore(contacts[k], h);
+      for (const int k : batches[trial.batch].contacts) holdNoMore(contacts[k], h);
     }
     for (const int k : batch.articulations) articulations[k].setOpened(false);
     batch.joints.finish(w.kinds, h);
@@ -619,15 +622,20 @@ void SmallSteps::Impl::finish(const Model& w, const Trial& trial, AccuracyReport
 
 // Its contacts have carried nothing.
 void SmallSteps::Impl::rest(const Batch& batch) {
+  unload(batch);
+  for (const BodyId i : batch.bodies) {
+    asked[i] = 0;
+    askedSweeps[i] = 1;
+  }
+}
+
+// What an impact gave lasts no longer than it.
+void SmallSteps::Impl::unload(const Batch& batch) {
   for (const int k : batch.contacts) {
     KeptContact& c = contacts[k];
     c.lambda = c.before = c.held = {};
     c.tangential.setZero();
     c.twist = 0;
-  }
-  for (const BodyId i : batch.bodies) {
-    asked[i] = 0;
-    askedSweeps[i] = 1;
   }
 }
 

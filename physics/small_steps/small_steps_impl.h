@@ -506,6 +506,7 @@ struct SmallSteps::Impl {
   double bendOf(const Model& w, const Batch& batch) const;
   double flyToTouch(Model& w, const Batch& batch, double most);
   void rest(const Batch& batch);
+  void unload(const Batch& batch);
   void finish(Model& w, Batch& batch, double h);
   void advance(Model& w, StepReport& report);
   void learnLoads(Model& w);
