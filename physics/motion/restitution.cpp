@@ -20,7 +20,7 @@ using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
 using PerPoint = std::array<double, Manifold::kMaxPoints>;
 
-// What an impulse of 1 along the normal at a point does to the pair.
+// What an impulse of 1 along a direction at a point does to the pair.
 struct Lever {
   Vec3 n, wa, wb;  // turns: I^-1 (r x n)
   Vec3 na, nb;     // r x n
@@ -41,10 +41,9 @@ struct Impact {
   int strikes = 0;
 };
 
-Lever leverOf(const ContactPair& pair, int k, const Bodies& bodies) {
+Lever leverOf(const ContactPair& pair, const Vec3& point, const Vec3& n, const Bodies& bodies) {
   Lever lever;
-  lever.n = normalOf(pair, bodies.pose);
-  const Vec3 point = pointOf(pair, k, bodies.pose);
+  lever.n = n;
   lever.na = (point - bodies.pose[pair.a].x).cross(lever.n);
   lever.nb = (point - bodies.pose[pair.b].x).cross(lever.n);
   const InverseMass &a = bodies.inverse[pair.a], &b = bodies.inverse[pair.b];
@@ -52,6 +51,16 @@ Lever leverOf(const ContactPair& pair, int k, const Bodies& bodies) {
   lever.wb = b.inertia * lever.nb;
   lever.resistance = a.m + b.m + lever.na.dot(lever.wa) + lever.nb.dot(lever.wb);
   return lever;
+}
+
+Lever leverOf(const ContactPair& pair, int k, const Bodies& bodies) {
+  return leverOf(pair, pointOf(pair, k, bodies.pose), normalOf(pair, bodies.pose), bodies);
+}
+
+// The speed along p of an impulse of 1 along q [1/kg].
+double gives(const ContactPair& pair, const Lever& p, const Lever& q, const Bodies& bodies) {
+  const double m = bodies.inverse[pair.a].m + bodies.inverse[pair.b].m;
+  return m * p.n.dot(q.n) + p.na.dot(q.wa) + p.nb.dot(q.wb);
 }
 
 double speedAt(const ContactPair& pair, const Lever& lever, const Bodies& bodies) {
@@ -138,8 +147,7 @@ std::vector<bool> spread(std::vector<Impact>& impacts, const Bodies& bodies) {
 
 // What the contacts of a body gave it in the solve, times h^2.
 struct Given {
-  Vec3 normal = Vec3::Zero(), normalTurn = Vec3::Zero();
-  Vec3 friction = Vec3::Zero(), frictionTurn = Vec3::Zero();
+  Vec3 impulse = Vec3::Zero(), turn = Vec3::Zero();
   int pairs = 0;
 };
 
@@ -149,16 +157,14 @@ std::vector<Given> givenBy(const std::vector<Impact>& impacts, const Bodies& bod
     const ContactPair& pair = *impact.pair;
     for (int k = 0; k < pair.count; ++k) {
       const ContactPointState& p = pair.points[k];
-      const Vec3 point = pointOf(pair, k, bodies.pose), normal = p.normalTotal * p.normal;
+      const Vec3 point = pointOf(pair, k, bodies.pose);
+      const Vec3 impulse = p.normalTotal * p.normal + p.frictionTotal;
       for (const double sign : {1.0, -1.0}) {
         const BodyId body = sign > 0 ? pair.a : pair.b;
-        const Vec3 arm = point - bodies.pose[body].x;
         Given& sum = given[body];
         sum.pairs += k == 0;
-        sum.normal += sign * normal;
-        sum.normalTurn += sign * arm.cross(normal);
-        sum.friction += sign * p.frictionTotal;
-        sum.frictionTurn += sign * arm.cross(p.frictionTotal);
+        sum.impulse += sign * impulse;
+        sum.turn += sign * (point - bodies.pose[body].x).cross(impulse);
       }
     }
   }
@@ -168,18 +174,17 @@ std::vector<Given> givenBy(const std::vector<Impact>& impacts, const Bodies& bod
 // True where nothing but its contacts moved the body in this substep.
 bool isFree(BodyId body, const FreeFlight& flight) { return !flight.attached[body]; }
 
-// Takes back what the solve made of the normals' impulses: exactly where only contacts moved the
+// Takes back what the solve made of the contacts' impulses: exactly where only contacts moved the
 // body, else to first order of its turn in the substep.
 void undo(const Given& given, Bodies& bodies, BodyId body, const FreeFlight& flight) {
   if (bodies.motion[body] != Motion::kDynamic) return;
   Velocity& velocity = bodies.velocity[body];
   const InverseMass& inverse = bodies.inverse[body];
   if (isFree(body, flight)) {
-    velocity.v = flight.before[body].v + inverse.m / flight.dt * given.friction;
-    velocity.w = flight.before[body].w + inverse.inertia * given.frictionTurn / flight.dt;
+    velocity = flight.before[body];
   } else {
-    velocity.v -= inverse.m / flight.dt * given.normal;
-    velocity.w -= inverse.inertia * given.normalTurn / flight.dt;
+    velocity.v -= inverse.m / flight.dt * given.impulse;
+    velocity.w -= inverse.inertia * given.turn / flight.dt;
   }
 }
 
@@ -204,9 +209,8 @@ void lever(Impact& impact, const Bodies& bodies) {
     impact.levers[k] = leverOf(pair, k, bodies);
     for (int i = 0; i <= k; ++i) {
       if (!impact.touches[i]) continue;
-      const Lever &p = impact.levers[i], &q = impact.levers[k];
       impact.gives(i, k) = impact.gives(k, i) =
-          q.resistance - (q.na - p.na).dot(q.wa) - (q.nb - p.nb).dot(q.wb);
+          gives(pair, impact.levers[i], impact.levers[k], bodies);
     }
   }
 }
@@ -233,21 +237,104 @@ Vec4 impulsesOf(const Impact& impact, const Vec4& missing) {
   return best;
 }
 
+// The impulses of one hit: along the normal at each point, and of friction where these act.
+struct Hit {
+  Vec4 normal = Vec4::Zero();
+  Vec2 friction = Vec2::Zero();
+  std::array<Lever, 2> along{};  // what friction acts along
+};
+
+// How friction, along two directions where the normals act, and these give speed to each other.
+struct Slip {
+  std::array<Lever, 2> along;
+  Vec2 speed = Vec2::Zero();
+  Eigen::Matrix2d gives;
+  Eigen::Matrix<double, 4, 2> ofFriction;  // the speed along normals of an impulse of friction
+
+  Slip(const Impact& impact, const Vec4& normal, const Bodies& bodies) {
+    const ContactPair& pair = *impact.pair;
+    const Vec3 n = normalOf(pair, bodies.pose), side = n.unitOrthogonal();
+    Vec3 at = Vec3::Zero();
+    for (int k = 0; k < pair.count; ++k) at += normal[k] * pointOf(pair, k, bodies.pose);
+    at /= normal.sum();
+    along = {leverOf(pair, at, side, bodies), leverOf(pair, at, n.cross(side), bodies)};
+    ofFriction.setZero();
+    for (int i = 0; i < 2; ++i) {
+      speed[i] = speedAt(pair, along[i], bodies);
+      for (int j = 0; j < 2; ++j) gives(i, j) = physics::gives(pair, along[i], along[j], bodies);
+      for (int k = 0; k < pair.count; ++k) {
+        if (impact.touches[k]) {
+          ofFriction(k, i) = physics::gives(pair, impact.levers[k], along[i], bodies);
+        }
+      }
+    }
+  }
+};
+
+// It ends the slip, or is as much as Coulomb's law has of all that presses.
+Vec2 frictionOf(const Friction& friction, const Slip& slip, const Vec4& normal) {
+  const Vec2 sticks = -slip.gives.inverse() * (slip.speed + slip.ofFriction.transpose() * normal);
+  const double size = sticks.norm(), pressed = normal.sum();
+  if (size <= friction.staticCoefficient * pressed) return sticks;
+  return friction.dynamicCoefficient * pressed / size * sticks;
+}
+
+// What `hit` adds to the kinetic energy of a pair that meets at `speed` along its normals [J].
+double workOf(const Impact& impact, const Slip& slip, const Vec4& speed, const Hit& hit) {
+  const Vec4 normals = speed + 0.5 * (impact.gives * hit.normal + slip.ofFriction * hit.friction);
+  const Vec2 sides =
+      slip.speed + 0.5 * (slip.gives * hit.friction + slip.ofFriction.transpose() * hit.normal);
+  return hit.normal.dot(normals) + hit.friction.dot(sides);
+}
+
+// Normals' impulses give points the speeds that they miss, and friction is Coulomb's. Where it has
+// turned the slip about, what it adds on the way back may be more than restitution lost (Kane's
+// paradox): then it is as much as leaves the hit without gain.
+Hit hitOf(const Impact& impact, const Vec4& speed, const Vec4& missing, const Bodies& bodies) {
+  constexpr int kMostRounds = 32;  // of a uniform rod each leaves a third at most
+  Hit hit;
+  hit.normal = impulsesOf(impact, missing);
+  const Friction& friction = impact.pair->friction;
+  const bool isRough = impact.pair->frictional && friction.staticCoefficient > 0;
+  if (!isRough || !(hit.normal.sum() > 0)) return hit;
+  const Hit smooth = hit;
+  const Slip slip(impact, hit.normal, bodies);
+  hit.along = slip.along;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Vec2 before = hit.friction;
+    hit.friction = frictionOf(friction, slip, hit.normal);
+    hit.normal = impulsesOf(impact, missing - slip.ofFriction * hit.friction);
+    if ((hit.friction - before).norm() <= 1e-9 * hit.normal.sum()) break;
+  }
+  // The work is a parabola of the part s of the way from without friction to with it.
+  const double without = workOf(impact, slip, speed, smooth), allowed = std::max(without, 0.0),
+               with = workOf(impact, slip, speed, hit);
+  if (!(with > allowed)) return hit;
+  const Hit half{0.5 * (smooth.normal + hit.normal), 0.5 * hit.friction, slip.along};
+  const double bend = 2 * (with + without) - 4 * workOf(impact, slip, speed, half),
+               slope = with - without - bend, below = allowed - without;
+  const double s =
+      std::clamp((std::sqrt(slope * slope + 4 * bend * below) - slope) / (2 * bend), 0.0, 1.0);
+  return {smooth.normal + s * (hit.normal - smooth.normal), s * hit.friction, slip.along};
+}
+
 // One hit of one pair. False: nothing approached.
 bool strike(Impact& impact, Bodies& bodies, double restitution, double threshold, double rise) {
   const ContactPair& pair = *impact.pair;
-  Vec4 missing = Vec4::Zero();  // speeds [m/s]
+  Vec4 speed = Vec4::Zero(), missing = Vec4::Zero();  // [m/s]
   bool approaches = false;
   for (int k = 0; k < pair.count; ++k) {
     if (!impact.touches[k]) continue;
-    const double speed = speedAt(pair, impact.levers[k], bodies);
-    approaches = approaches || speed < -kSlowest;
-    missing[k] = wanted(impact, k, speed, restitution, threshold, rise) - speed;
+    speed[k] = speedAt(pair, impact.levers[k], bodies);
+    approaches = approaches || speed[k] < -kSlowest;
+    missing[k] = wanted(impact, k, speed[k], restitution, threshold, rise) - speed[k];
   }
   if (!approaches) return false;
-  const Vec4 impulses = impulsesOf(impact, missing);
+  const Hit hit = hitOf(impact, speed, missing, bodies);
+  for (int i = 0; i < 2; ++i)
+    if (hit.friction[i] != 0) push(pair, hit.along[i], hit.friction[i], bodies);
   for (int k = 0; k < pair.count; ++k)
-    if (impulses[k] > 0) push(pair, impact.levers[k], impulses[k], bodies);
+    if (hit.normal[k] > 0) push(pair, impact.levers[k], hit.normal[k], bodies);
   ++impact.strikes;
   return true;
 }

@@ -172,6 +172,73 @@ TEST(Restitution, OfABoxThatFallsFlatDoesNotTurnIt) {
   EXPECT_LT(spin, 1e-9);
 }
 
+// The default, and by an accuracy.
+Settings rough(std::optional<double> accuracy, double friction, double restitution) {
+  Settings settings;
+  settings.accuracy = accuracy;
+  settings.gravity = Vec3(0, -kGravity, 0);
+  settings.contact = ContactSettings{};
+  settings.contact->friction = {friction, friction};
+  settings.contact->restitution = restitution;
+  return settings;
+}
+
+// A ball that comes in at an angle, spinning: Coulomb's law has (1 + e) of what presses. It slips
+// all the while, and is slowed by nu (1 + e) v; or it grips, and 2/7 of its slip are taken away.
+TEST(Restitution, OfASpinningBallHasTheFrictionOfItsWholeImpulse) {
+  constexpr double e = 0.6, fall = 3, along = 2, spin = 10, radius = 0.1;
+  for (const double nu : {0.1, 0.8}) {
+    for (const std::optional<double> accuracy : {std::optional<double>(), std::optional(1e-3)}) {
+      Settings settings = rough(accuracy, nu, e);
+      settings.gravity.reset();
+      World world(settings);
+      world.add(ground());
+      BodyDef ball = smallBall(1, Vec3(0, radius + 0.051, 0), Vec3(along, -fall, 0));
+      ball.velocity.w = Vec3(0, 0, spin);  // its lowest point goes along x, too
+      const BodyId body = world.add(ball);
+      for (int k = 0; k < 3; ++k) world.step();
+      const double slip = along + radius * spin,
+                   given = std::min(nu * (1 + e) * fall, 2.0 / 7 * slip);
+      const Velocity& v = world.bodies().velocity[body];
+      EXPECT_NEAR(v.v.y(), e * fall, 1e-6) << nu;
+      EXPECT_NEAR(v.v.x(), along - given, 1e-5) << nu;
+      EXPECT_NEAR(v.w.z(), spin - given / (0.4 * radius), 1e-4) << nu;
+    }
+  }
+}
+
+// Kinetic energy, and height [J].
+double energyOf(const World& world, BodyId i) {
+  const Bodies& b = world.bodies();
+  const Vec3 own = b.pose[i].q.conjugate() * b.velocity[i].w;
+  return 0.5 * b.velocity[i].v.squaredNorm() + 0.5 * own.cwiseProduct(b.inertia[i]).dot(own) +
+         kGravity * b.pose[i].x.y();
+}
+
+// Boxes that tumble on rough ground: friction that turns a slip about may add more than restitution
+// takes (Kane's paradox). With that of the solve, 27 % of the energy of one of these; measured 0.26
+// % where it lies down.
+TEST(Restitution, OfTumblingBoxesOnRoughGroundGainsNothing) {
+  for (const double e : {0.5, 0.9}) {
+    for (int turn = 0; turn < 40; ++turn) {
+      World world(rough(1e-2, 0.6, e));
+      world.add(ground());
+      BodyDef box;
+      box.shape = Box{Vec3(0.5, 0.25, 0.25)};
+      box.pose = {Vec3(0, 0.6, 0), about(Vec3(1, 0.3 * turn, -0.5).normalized(), 0.7 * turn)};
+      box.velocity = {Vec3(3, -1, 0), Vec3(0.2 * turn - 4, 3, 0.1 * turn)};
+      const BodyId body = world.add(box);
+      double most = energyOf(world, body);
+      for (int frame = 0; frame < 120; ++frame) {
+        world.step();
+        const double now = energyOf(world, body);
+        EXPECT_LT(now, most * (1 + 5e-3)) << e << ' ' << turn << ' ' << frame;
+        most = std::min(most, now);
+      }
+    }
+  }
+}
+
 // What rests stays at rest, to the bit, however elastic: no contact is faster than gravity makes it
 // in a step.
 TEST(Restitution, LeavesAStackThatRestsAlone) {
