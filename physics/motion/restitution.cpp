@@ -31,6 +31,11 @@ struct Impact {
   const ContactPair* pair = nullptr;
   std::array<Lever, Manifold::kMaxPoints> levers{};  // of the points that touch
   Mat4 gives = Mat4::Zero();  // the speed at point i of an impulse of 1 at j [1/kg]
+  struct Set {  // of points: 1 for those that are in, and what `gives` is inverse to there
+    Vec4 in = Vec4::Zero();
+    Mat4 inverse = Mat4::Zero();
+  };
+  Set last;  // that pushed
   std::array<bool, Manifold::kMaxPoints> touches{};
   PerPoint speed{};      // v_i of each point, 0 where it does not bounce [m/s]
   PerPoint left{};       // tau of each point [s]
@@ -215,24 +220,36 @@ void lever(Impact& impact, const Bodies& bodies) {
   }
 }
 
+// What the points of a set give is none of what others miss, and all of what their own do: what it
+// is wrong by [m/s]. They push only.
+double wrongBy(const Impact& impact, const Impact::Set& set, const Vec4& missing, Vec4& impulses) {
+  impulses = (set.inverse * missing).cwiseMax(0);
+  const Vec4 left = missing - impact.gives * impulses;
+  return std::max(left.maxCoeff(), set.in.cwiseProduct(left).cwiseAbs().maxCoeff());
+}
+
 // Impulses that push only and leave no point slower than it shall be, and none faster that is
-// pushed: of the sets of points that may push, the one that is wrong by the least. A pair has one
-// normal: whatever many points give, three can give.
-Vec4 impulsesOf(const Impact& impact, const Vec4& missing) {
-  Vec4 best = Vec4::Zero();
-  double least = std::numeric_limits<double>::infinity();  // what best is wrong by [m/s]
-  for (unsigned set = 1; set < 1U << impact.pair->count && least > 0.01 * kSlowest; ++set) {
-    if (std::popcount(set) > 3) continue;
-    Vec4 in = Vec4::Zero();
-    for (int k = 0; k < impact.pair->count; ++k) in[k] = impact.touches[k] && (set >> k & 1U);
-    Mat4 gives = in.asDiagonal() * impact.gives * in.asDiagonal();
-    gives.diagonal() += Vec4::Ones() - in;
-    const Vec4 impulses = gives.ldlt().solve(in.cwiseProduct(missing)).cwiseMax(0);
-    const Vec4 left = missing - impact.gives * impulses;
-    const double wrong = std::max(left.maxCoeff(), in.cwiseProduct(left).cwiseAbs().maxCoeff());
+// pushed: of the sets of points that may push, the one that was right before or the one that is
+// wrong by the least. A pair has one normal: whatever many points give, three can give.
+Vec4 impulsesOf(Impact& impact, const Vec4& missing) {
+  constexpr double kRight = 0.01 * kSlowest;
+  Vec4 best = Vec4::Zero(), impulses;
+  if (wrongBy(impact, impact.last, missing, best) <= kRight) return best;
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned points = 1; points < 1U << impact.pair->count && least > kRight; ++points) {
+    if (std::popcount(points) > 3) continue;
+    Impact::Set set;
+    for (int k = 0; k < impact.pair->count; ++k) {
+      set.in[k] = impact.touches[k] && (points >> k & 1U);
+    }
+    Mat4 gives = set.in.asDiagonal() * impact.gives * set.in.asDiagonal();
+    gives.diagonal() += Vec4::Ones() - set.in;
+    set.inverse = set.in.asDiagonal() * gives.ldlt().solve(Mat4(set.in.asDiagonal()));
+    const double wrong = wrongBy(impact, set, missing, impulses);
     if (!(wrong < least)) continue;
     least = wrong;
     best = impulses;
+    impact.last = set;
   }
   return best;
 }
@@ -248,7 +265,7 @@ struct Hit {
 struct Slip {
   std::array<Lever, 2> along;
   Vec2 speed = Vec2::Zero();
-  Eigen::Matrix2d gives;
+  Eigen::Matrix2d gives, inverse;
   Eigen::Matrix<double, 4, 2> ofFriction;  // the speed along normals of an impulse of friction
 
   Slip(const Impact& impact, const Vec4& normal, const Bodies& bodies) {
@@ -268,12 +285,13 @@ struct Slip {
         }
       }
     }
+    inverse = gives.inverse();
   }
 };
 
 // It ends the slip, or is as much as Coulomb's law has of all that presses.
 Vec2 frictionOf(const Friction& friction, const Slip& slip, const Vec4& normal) {
-  const Vec2 sticks = -slip.gives.inverse() * (slip.speed + slip.ofFriction.transpose() * normal);
+  const Vec2 sticks = -slip.inverse * (slip.speed + slip.ofFriction.transpose() * normal);
   const double size = sticks.norm(), pressed = normal.sum();
   if (size <= friction.staticCoefficient * pressed) return sticks;
   return friction.dynamicCoefficient * pressed / size * sticks;
@@ -290,8 +308,8 @@ double workOf(const Impact& impact, const Slip& slip, const Vec4& speed, const H
 // Normals' impulses give points the speeds that they miss, and friction is Coulomb's. Where it has
 // turned the slip about, what it adds on the way back may be more than restitution lost (Kane's
 // paradox): then it is as much as leaves the hit without gain.
-Hit hitOf(const Impact& impact, const Vec4& speed, const Vec4& missing, const Bodies& bodies) {
-  constexpr int kMostRounds = 32;  // of a uniform rod each leaves a third at most
+Hit hitOf(Impact& impact, const Vec4& speed, const Vec4& missing, const Bodies& bodies) {
+  constexpr int kMostRounds = 16;  // of a uniform rod each leaves a third at most
   Hit hit;
   hit.normal = impulsesOf(impact, missing);
   const Friction& friction = impact.pair->friction;
@@ -304,7 +322,7 @@ Hit hitOf(const Impact& impact, const Vec4& speed, const Vec4& missing, const Bo
     const Vec2 before = hit.friction;
     hit.friction = frictionOf(friction, slip, hit.normal);
     hit.normal = impulsesOf(impact, missing - slip.ofFriction * hit.friction);
-    if ((hit.friction - before).norm() <= 1e-9 * hit.normal.sum()) break;
+    if ((slip.gives * (hit.friction - before)).norm() <= kSlowest) break;
   }
   // The work is a parabola of the part s of the way from without friction to with it.
   const double without = workOf(impact, slip, speed, smooth), allowed = std::max(without, 0.0),

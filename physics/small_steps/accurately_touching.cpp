@@ -23,8 +23,6 @@ namespace {
 constexpr double kLeastPart = 1.0 / 1024;  // what goes with h^2 is then kKnown of the whole's
 // Of a step, each at its moment: what has more is no motion to follow.
 constexpr int kMostPlaces = 4;
-// Of a step: an impact takes no time, so that what moves in it is rounding.
-constexpr double kImpact = 1.0 / (1 << 30);
 // Of meshes every point errs in every step, and what has no powers of h shows otherwise: a column
 // leaves more than this of the error, as where links draw taut and go slack. A step for it would
 // have to end at each of them, so that what rows come to is taken as it is.
@@ -234,7 +232,7 @@ void SmallSteps::Impl::begin(const Model& w, Trial& trial) {
   trial.extent = sizeOf(w.bodies, batch);
   trial.allowed = allowedError(w);
   trial.flights = 0;
-  trial.hits = trial.isLaidOut = trial.needsMore = false;
+  trial.isLaidOut = trial.needsMore = false;
   trial.told = {};
   trial.levers.clear();
   for (const BodyId i : batch.bodies) {
@@ -291,7 +289,7 @@ double SmallSteps::Impl::errorOfOneRow(const Model& w, const Trial& trial) const
 // errs by less than contacts know, further ones tell nothing. Contacts are to stand where they
 // touch, or the row's substeps tell how deep they are: unless they carry next to nothing.
 bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
-  if (trial.needsMore || trial.hits) return false;
+  if (trial.needsMore) return false;
   const Batch& batch = batches[trial.batch];
   const bool isExact = oneRowErrs[batch.bodies.front()] <= kKnown;
   if (!isExact && !(wayOf(w, trial) <= trial.allowed)) return false;
@@ -314,7 +312,7 @@ void SmallSteps::Impl::noteMotion(const Model& w, const Trial& trial) {
   double& errs = oneRowErrs[batch.bodies.front()];
   if (trial.isOneRow) {
     errs = trial.oneRowErrs;
-  } else if (trial.hits || trial.changes > 0 || trial.columns == 1) {
+  } else if (trial.changes > 0 || trial.columns == 1) {
     errs = std::numeric_limits<double>::infinity();
   } else {  // it goes with h
     const double dt = w.settings.dt, times = dt / trial.whole;
@@ -322,38 +320,37 @@ void SmallSteps::Impl::noteMotion(const Model& w, const Trial& trial) {
   }
 }
 
-// What it tries next; as long as nothing touches it flies before that. False: its step is made.
+// As long as nothing is pressed the bodies of its island fly, and hit each other where they meet.
+void SmallSteps::Impl::fly(Model& w, Trial& trial) {
+  Batch& batch = batches[trial.batch];
+  while (trial.left > 0 && trial.flights < kMostPlaces) {
+    const double flown = flyToTouch(w, batch, trial.left);
+    trial.left = flown == trial.left ? 0 : trial.left - flown;
+    const bool hasHit = trial.left > 0 && hit(w, batch, trial.left);
+    if (!(flown > 0) && !hasHit) return;
+    ++trial.flights;
+  }
+}
+
+// What it tries next, after it has flown. False: its step is made.
 bool SmallSteps::Impl::plan(Model& w, Trial& trial) {
   Batch& batch = batches[trial.batch];
   StepChoice& choice = choices[batch.bodies.front()];
   const double dt = w.settings.dt;
-  const bool givesBack = w.bodies.mostRestitution > 0, hasHit = trial.hits;
-  trial.hits = false;
-  while (trial.left > 0 && trial.flights < kMostPlaces) {
-    const double flown = flyToTouch(w, batch, trial.left);
-    const bool isNew = flown > 0 || (givesBack && !hasHit && meets(w, batch, trial.left));
-    trial.left = flown == trial.left ? 0 : trial.left - flown;
-    trial.flights += isNew;
-    trial.hits = givesBack && (trial.hits || isNew);
-    if (!(flown > 0)) break;
-  }
+  fly(w, trial);
   if (!(trial.left > 0)) return false;
   keepStart(w, batch);
   // What is a hundredth of what it is off already changes nothing.
   const double off = missedBy(batch);
   trial.allowed = std::max(allowedError(w), kShareOfFrame * off);
   trial.isOneRow = mayTakeOneRow(w, trial);
-  trial.isRough = !trial.hits && !trial.isOneRow && off > std::max(*w.settings.accuracy, kLost);
-  trial.isLost = !trial.hits && !trial.isOneRow && choice.lost() > 0;
-  if (trial.hits) {
-    trial.whole = std::min(kImpact * dt, trial.left);
-  } else {
-    const bool isWhole = trial.isOneRow || trial.isRough;
-    const double next = isWhole ? trial.left : choice.next(trial.left, dt),
-                 wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
-    trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
-  }
-  trial.columns = trial.hits || trial.isOneRow || trial.isLost ? 1 : choice.columns();
+  trial.isRough = !trial.isOneRow && off > std::max(*w.settings.accuracy, kLost);
+  const bool isWhole = trial.isOneRow || trial.isRough;
+  const double next = isWhole ? trial.left : choice.next(trial.left, dt);
+  const double wanted = std::min(std::max(next, kLeastPart * dt), trial.left);
+  trial.whole = nextPart(w.kinds, w.time() + (dt - trial.left), wanted, kLeastPart * dt);
+  trial.isLost = !trial.isOneRow && choice.lost() > 0;
+  trial.columns = trial.isOneRow || trial.isLost ? 1 : choice.columns();
   trial.most =
       std::max(trial.columns, static_cast<int>(std::ceil(batch.substeps * trial.whole / dt)));
   return true;
@@ -466,7 +463,7 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   StepChoice& choice = choices[batch.bodies.front()];
   const double dt = w.settings.dt, allowed = trial.allowed;
   const bool isLost = trial.changes > kMostPlaces;
-  const bool isKnown = trial.columns > 1 || trial.isOneRow || trial.hits;
+  const bool isKnown = trial.columns > 1 || trial.isOneRow;
   const bool isSmall = isKnown && trial.error <= allowed;
   const bool isFew = (!batch.deformables.empty() || trial.places <= kMostPlaces) && !isLost;
   const bool mayDivide = trial.whole > kLeastPart * dt && isFew && !trial.isRough;
@@ -493,16 +490,14 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   } else if (trial.isOneRow) {
     choice.rest();
     if (wayOf(w, trial) <= allowedError(w)) miss(batch, 0);
-  } else if (!trial.hits) {  // a jump is no smoother in shorter substeps
+  } else {
     takeBest(w, trial);
     choice.accept(trial.whole, trial.error, trial.coarser, {allowed}, dt);
   }
   noteMotion(w, trial);
   if (isSmall) trial.told.order = std::max(trial.told.order, trial.isOneRow ? 1 : choice.columns());
   ++trial.told.accepted;
-  if (!trial.hits) {
-    trial.told.least = trial.told.least > 0 ? std::min(trial.told.least, trial.whole) : trial.whole;
-  }
+  trial.told.least = trial.told.least > 0 ? std::min(trial.told.least, trial.whole) : trial.whole;
   trial.told.estimate += trial.error;
   trial.left = trial.whole == trial.left ? 0 : trial.left - trial.whole;
   return true;
@@ -511,9 +506,7 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
 // What its rows err by. True: it goes on with one more column.
 bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
   StepChoice& choice = choices[batches[trial.batch].bodies.front()];
-  if (trial.hits) {
-    trial.error = kImpact * wayAhead(w, trial);
-  } else if (trial.isOneRow) {
+  if (trial.isOneRow) {
     const double way = wayOf(w, trial);
     trial.oneRowErrs = errorOfOneRow(w, trial);
     const bool isExact = trial.oneRowErrs <= kKnown;
@@ -547,25 +540,22 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
       continue;
     }
     ends.push_back(isDone(w, *trial) ? Ended::kAccepted : Ended::kRejected);
+    if (ends.back() != Ended::kAccepted) continue;
     // What it ends with, or flies on from.
-    if (ends.back() != Ended::kAccepted || trial->hits) continue;
     asks = asks || !(trial->left > 0) || mayFly(w, own, trial->left);
   }
   forEachPart(batch, [&](std::size_t i, int l, int part) {
-    if (ends[part] != Ended::kAccepted || group[part]->hits) return;
+    if (ends[part] != Ended::kAccepted) return;
     takeOver(w.bodies, batch.blocks[i], l);
     if (jumps(w, *group[part])) spreadJump(w, contacts[batch.blocks[i].contact[l]]);
   });
   for (std::size_t part = 0; part < group.size(); ++part) {
     if (ends[part] != Ended::kAccepted) continue;
-    const Trial& trial = *group[part];
-    const double h = trial.whole / trial.steps;
-    if (trial.hits) {
-      unload(batches[trial.batch]);
-    } else if (trial.columns > 1) {
-      holdLoads(w, trial);
+    const double h = group[part]->whole / group[part]->steps;
+    if (group[part]->columns > 1) {
+      holdLoads(w, *group[part]);
     } else {
-      for (const int k : batches[trial.batch].contacts) holdNoMore(contacts[k], h);
+      for (const int k : batches[group[part]->batch].contacts) holdNoMore(contacts[k], h);
     }
     for (const int k : batch.articulations) articulations[k].setOpened(false);
     batch.joints.finish(w.kinds, h);
@@ -629,7 +619,6 @@ void SmallSteps::Impl::rest(const Batch& batch) {
   }
 }
 
-// What an impact gave lasts no longer than it.
 void SmallSteps::Impl::unload(const Batch& batch) {
   for (const int k : batch.contacts) {
     KeptContact& c = contacts[k];

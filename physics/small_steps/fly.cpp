@@ -1,10 +1,11 @@
-// Bodies that nothing holds: exactly, in one go.
+// Bodies that nothing holds: exactly, in one go; and how they hit each other.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "physics/base/profile.h"
 #include "physics/motion/free_motion.h"
 #include "physics/motion/restitution.h"
 #include "physics/small_steps/small_steps_impl.h"
@@ -81,18 +82,6 @@ bool SmallSteps::Impl::mayFly(const Model& w, const Batch& batch, double time) {
     return isDriven(c.a) || isDriven(c.b) || leastGapOf(c, b.pose) < -kClose ||
            presses(w, c, kMoment * time);
   });
-}
-
-// Bodies that flew meet: all that is pressed has carried nothing.
-bool SmallSteps::Impl::meets(const Model& w, const Batch& batch, double time) {
-  if (batch.isMixed()) return false;
-  bool isAny = false;
-  for (const int k : batch.contacts) {
-    if (!presses(w, contacts[k], kMoment * time)) continue;
-    if (contacts[k].isLoaded()) return false;
-    isAny = true;
-  }
-  return isAny;
 }
 
 // The least gap of a batch's contacts, where its bodies are after a flight of so long [m]; of one
@@ -182,6 +171,40 @@ double SmallSteps::Impl::flyToTouch(Model& w, const Batch& batch, double most) {
   }
   for (const BodyId i : batch.bodies) fly(w, i, open, w.bodies.pose[i], w.bodies.velocity[i]);
   return open;
+}
+
+// Bodies that flew meet: what is pressed has carried nothing.
+bool SmallSteps::Impl::meets(const Model& w, const Batch& batch, double time) {
+  if (batch.isMixed()) return false;
+  bool isAny = false;
+  for (const int k : batch.contacts) {
+    if (!presses(w, contacts[k], kMoment * time)) continue;
+    if (contacts[k].isLoaded()) return false;
+    isAny = true;
+  }
+  return isAny;
+}
+
+// Where bodies meet, in no time. What it gives lasts no longer, and is no load. False: nothing
+// jumped.
+bool SmallSteps::Impl::hit(Model& w, Batch& batch, double time) {
+  Bodies& b = w.bodies;
+  if (!(b.mostRestitution > 0) || !meets(w, batch, time)) return false;
+  profileScope("restitution");
+  for (const BodyId i : batch.bodies) {
+    const Mat3 r = b.pose[i].q.toRotationMatrix();
+    b.inverse[i].inertia = r * b.inverseInertia[i].asDiagonal() * r.transpose();
+    b.start[i] = b.pose[i];
+  }
+  batch.impacts.pairs.clear();
+  for (const int k : batch.contacts) {
+    measureStart(batch.impacts.pairs.emplace_back(pairOf(contacts[k], 0)), b);
+  }
+  w.velocityBefore = b.velocity;
+  const bool jumps = !restitute(batch.impacts, b, w.flight(kMoment * time)).empty();
+  if (jumps) unload(batch);
+  profileScope("");
+  return jumps;
 }
 
 }  // namespace physics

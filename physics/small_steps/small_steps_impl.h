@@ -172,7 +172,6 @@ struct SmallSteps::Trial {
   double oneRowErrs = 0;                     // by what is known of it; infinite: nothing is
   bool isLost = false;   // no step resolved the last one, and the default's is all of this
   bool isRough = false;  // its rows err by no powers of h, or it is lost: taken as it is
-  bool hits = false;     // an impact comes next: by itself, and what flies on then flies exactly
   AccuracyReport told;
 };
 
@@ -302,6 +301,7 @@ struct SmallSteps::Impl {
   double meshesClose(const Model& w) const;
   void advanceTouching(Model& w, StepReport& report);
   bool isAlike(const Model& w, const Trial& a, const Trial& b) const;
+  void fly(Model& w, Trial& trial);
   bool plan(Model& w, Trial& trial);
   void tryTogether(Model& w, std::vector<Trial*>& group, StepReport& report);
   Batch& lanesFor(Model& w, std::span<Trial* const> group);
@@ -499,12 +499,13 @@ struct SmallSteps::Impl {
   void fly(Model& w);
   void fly(const Model& w, BodyId i, double dt, Pose& pose, Velocity& v) const;
   double gapAtTrial(const Bodies& b, const KeptContact& c);
-  bool presses(const Model& w, const KeptContact& c, double time);
+  bool presses(const Model& w, const KeptContact& c, double moment);
   bool mayFly(const Model& w, const Batch& batch, double time);
-  bool meets(const Model& w, const Batch& batch, double time);
   double gapAfter(const Model& w, const Batch& batch, double time);
   double bendOf(const Model& w, const Batch& batch) const;
   double flyToTouch(Model& w, const Batch& batch, double most);
+  bool meets(const Model& w, const Batch& batch, double time);
+  bool hit(Model& w, Batch& batch, double time);
   void rest(const Batch& batch);
   void unload(const Batch& batch);
   void finish(Model& w, Batch& batch, double h);
