@@ -200,8 +200,9 @@ bool SmallSteps::Impl::hit(Model& w, Batch& batch, double time) {
   for (const int k : batch.contacts) {
     measureStart(batch.impacts.pairs.emplace_back(pairOf(contacts[k], 0)), b);
   }
-  w.velocityBefore = b.velocity;
-  const bool jumps = !restitute(batch.impacts, b, w.flight(kMoment * time)).empty();
+  const FreeFlight flight{w.settings.gravity, w.loads, b.velocity, std::vector<bool>(b.pose.size()),
+                          kMoment * time};
+  const bool jumps = !restitute(batch.impacts, b, flight).empty();
   if (jumps) unload(batch);
   profileScope("");
   return jumps;
