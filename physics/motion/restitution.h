@@ -6,9 +6,7 @@
 //   c = -e v_i tau + a tau^2/2, v = -e v_i + a tau: the times of bounces are of second order too.
 // Bodies that touch hand an impact on: the impulses of the solve, which ends all approach at once,
 // are taken back, and pairs hit one another in turn until none approaches (Newton's cradle). Of two
-// bodies that hit each other the larger e counts. A hit has the friction of Coulomb's law for all
-// that presses, where it presses, but no more than leaves the pair without a gain: what an impulse
-// p adds is p . (v- + v+) / 2, and along normals that is not above zero while e <= 1.
+// bodies that hit each other the larger e counts. What a hit is, hit.h tells.
 #pragma once
 
 #include <optional>
