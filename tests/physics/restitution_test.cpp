@@ -216,24 +216,29 @@ double energyOf(const World& world, BodyId i) {
 }
 
 // Boxes that tumble on rough ground: friction that turns a slip about may add more than restitution
-// takes (Kane's paradox). With that of the solve, 27 % of the energy of one of these; measured 0.26
-// % where it lies down.
+// takes (Kane's paradox). With that of the solve, 28 % of the energy of one of these.
 TEST(Restitution, OfTumblingBoxesOnRoughGroundGainsNothing) {
-  for (const double e : {0.5, 0.9}) {
-    for (int turn = 0; turn < 40; ++turn) {
-      World world(rough(1e-2, 0.6, e));
-      world.add(ground());
-      BodyDef box;
-      box.shape = Box{Vec3(0.5, 0.25, 0.25)};
-      box.pose = {Vec3(0, 0.6, 0), about(Vec3(1, 0.3 * turn, -0.5).normalized(), 0.7 * turn)};
-      box.velocity = {Vec3(3, -1, 0), Vec3(0.2 * turn - 4, 3, 0.1 * turn)};
-      const BodyId body = world.add(box);
-      double most = energyOf(world, body);
-      for (int frame = 0; frame < 120; ++frame) {
-        world.step();
-        const double now = energyOf(world, body);
-        EXPECT_LT(now, most * (1 + 5e-3)) << e << ' ' << turn << ' ' << frame;
-        most = std::min(most, now);
+  struct Bound {
+    std::optional<double> accuracy;
+    double gain;  // of what it has, by where in a substep it hits: measured 5e-3 and 3e-4
+  };
+  for (const auto& [accuracy, gain] : {Bound{{}, 1e-2}, Bound{1e-2, 1e-3}}) {
+    for (const double e : {0.5, 0.9}) {
+      for (int turn = 0; turn < 40; ++turn) {
+        World world(rough(accuracy, 0.6, e));
+        world.add(ground());
+        BodyDef box;
+        box.shape = Box{Vec3(0.5, 0.25, 0.25)};
+        box.pose = {Vec3(0, 0.6, 0), about(Vec3(1, 0.3 * turn, -0.5).normalized(), 0.7 * turn)};
+        box.velocity = {Vec3(3, -1, 0), Vec3(0.2 * turn - 4, 3, 0.1 * turn)};
+        const BodyId body = world.add(box);
+        double most = energyOf(world, body);
+        for (int frame = 0; frame < 120; ++frame) {
+          world.step();
+          const double now = energyOf(world, body);
+          EXPECT_LT(now, most * (1 + gain)) << e << ' ' << turn << ' ' << frame;
+          most = std::min(most, now);
+        }
       }
     }
   }
