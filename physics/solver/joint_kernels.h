@@ -162,7 +162,8 @@ void stiffen(const Of<N>& s) {
       for (int r = 0; !shape.isGap && r < shape.rows; ++r) {
         f = f + load3<N>(row.linear[b] + 3 * r) * load(row.lambda[r]);
       }
-      const N along = dot(f, load3<N>(row.arm[b])), squared = squaredNorm(f);
+      const N along = dot(f, load3<N>(row.arm[b])), size = squaredNorm(f);
+      const N squared = wherePositive(size, size, one);  // where nothing pulls nothing is added
       const auto add = [&](int k, N first, N second) {
         auto& entry = s.bodies[shape.body[b]].stiffness[k];
         const N across = (k < 3 ? one : zero) - first * second / squared;
