@@ -192,8 +192,8 @@ bool SmallSteps::Impl::hit(Model& w, Batch& batch, double time) {
   if (!(b.mostRestitution > 0) || !meets(w, batch, time)) return false;
   profileScope("restitution");
   for (const BodyId i : batch.bodies) {
-    const Mat3 r = b.pose[i].q.toRotationMatrix();
-    b.inverse[i].inertia = r * b.inverseInertia[i].asDiagonal() * r.transpose();
+    takeMass(w, i);
+    b.inverse[i].inertia = masses[i].inertia;
     b.start[i] = b.pose[i];
   }
   batch.impacts.pairs.clear();
