@@ -122,22 +122,6 @@ void SmallSteps::Impl::holdLoads(const Model& w, const Trial& trial) {
   }
 }
 
-// Rows or contacts differ in a step that was cut short.
-bool SmallSteps::Impl::jumps(const Model& w, const Trial& trial) const {
-  const bool differs = trial.error > trial.allowed || trial.changes > 0;
-  return differs && trial.whole < w.settings.dt;
-}
-
-// Of a contact that jumps, so that it carries more than twice what it did, the impulse is known,
-// and no force that lasts: it is kept as if it had been given over a whole step. As a force of what
-// it took, a longer substep would throw the bodies by it.
-void SmallSteps::Impl::spreadJump(const Model& w, KeptContact& c) const {
-  const auto sum = [&](const auto& loads) {
-    return std::accumulate(loads.begin(), loads.begin() + c.count, 0.0);
-  };
-  if (sum(c.lambda) > 2 * sum(c.before)) c.step = std::sqrt(c.step * w.settings.dt);
-}
-
 // To where `reached` has the bodies, if joints hold there; else nothing moves, and joints are seen
 // again where they are.
 bool SmallSteps::Impl::goToReached(Model& w, Batch& batch, double h) {
@@ -169,9 +153,11 @@ bool SmallSteps::Impl::opensAtEnd(const Bodies& b, const Batch& batch) {
 
 // What rests is left to rest: where the last row's end is known no better, it is that. And where
 // contacts and joints hold there: what extrapolates does not know that nothing passes a surface,
-// and opens joints by the square of what rows differ by.
+// and opens joints by the square of what rows differ by. What is off by more than was asked is not
+// followed any more: the last row's contacts give no energy, and what rows lead to may.
 void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
-  if (trial.changes > 0) return;
+  const bool isFollowed = trial.allowed <= allowedError(w);
+  if (trial.changes > 0 || !isFollowed) return;
   if (!(trial.tableau.gain(trial.extent, w.settings.dt, trial.levers) > kKnown)) return;
   Batch& batch = batches[trial.batch];
   const double h = trial.whole / trial.steps;
@@ -547,7 +533,6 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
   forEachPart(batch, [&](std::size_t i, int l, int part) {
     if (ends[part] != Ended::kAccepted) return;
     takeOver(w.bodies, batch.blocks[i], l);
-    if (jumps(w, *group[part])) spreadJump(w, contacts[batch.blocks[i].contact[l]]);
   });
   for (std::size_t part = 0; part < group.size(); ++part) {
     if (ends[part] != Ended::kAccepted) continue;

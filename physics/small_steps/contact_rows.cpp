@@ -55,17 +55,17 @@ void emptyPoint(ContactBlock& block, int k, int l) {
 }
 
 // What lane l carried, of c: kept multipliers are scaled to substeps of h. `stayed`: only what has
-// been carried for two steps.
+// been carried for two steps. Where these differ in length, what an impact gave within a short one
+// would throw the bodies in a longer, as a force.
 void fillLoads(const KeptContact& c, double h, bool stayed, ContactBlock& block, int l) {
-  double all = 0, kept = 0, scale = substepRatio(c, h);
+  const double scale = substepRatio(c, h);
+  double before = 0;
   for (int k = 0; k < c.count; ++k) {
-    const double lambda = stayed ? c.stayed(k) : c.lambda[k];
-    all += c.lambda[k];
-    kept += lambda;
-    block.point[k].lambda[l] = static_cast<float>(scale * lambda);
+    before += c.before[k];
+    block.point[k].lambda[l] = static_cast<float>(scale * (stayed ? c.stayed(k) : c.lambda[k]));
     block.held[k][l] = static_cast<float>(h * h * c.held[k]);
   }
-  if (kept < all) scale *= kept / all;
+  block.lasted[l] = static_cast<float>(scale * before);
   block.twist[l] = static_cast<float>(scale * c.twist);
   block.tangent[0].lambda[l] = static_cast<float>(scale * c.tangential.x());
   block.tangent[1].lambda[l] = static_cast<float>(scale * c.tangential.y());
@@ -94,7 +94,7 @@ void emptyLane(ContactBlock& block, int l) {
   block.bodyA[l] = block.bodyB[l] = 0;
   put(block.n, l, Vec3::UnitY());
   block.scale[l] = 1;
-  block.push[l] = 0;
+  block.push[l] = block.lasted[l] = 0;
   block.rate[l] = block.staticFriction[l] = block.dynamicFriction[l] = 0;
   block.twist[l] = block.change[0][l] = block.change[1][l] = 0;
   for (auto& t : block.tangent) t.lambda[l] = 0;
@@ -136,8 +136,7 @@ void SmallSteps::Impl::fill(const Model& w, const Batch& batch, ContactBlock& bl
     block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
     block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
     placeLane(c, b.pose, isWithin, block, l);
-    // Of a hit nothing is kept where joints would pass it on.
-    fillLoads(c, h, batch.takesTurns() && isJointed(c), block, l);
+    fillLoads(c, h, isWithin, block, l);
   }
 }
 

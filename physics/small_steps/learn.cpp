@@ -120,7 +120,7 @@ void SmallSteps::Impl::goAhead(const Model& w, Batch& batch) {
         lambda = round.told.point[p][l] = then;
       }
     }
-    contactKernels().warmStart(&more, 1, batch.motions.data());
+    contactKernels().give(&more, 1, batch.motions.data());
   }
 }
 

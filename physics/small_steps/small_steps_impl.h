@@ -338,8 +338,6 @@ struct SmallSteps::Impl {
   void begin(const Model& w, Trial& trial);
   void noteLoads(const Model& w, const Batch& batch);
   void holdLoads(const Model& w, const Trial& trial);
-  bool jumps(const Model& w, const Trial& trial) const;
-  void spreadJump(const Model& w, KeptContact& c) const;
   bool opensAtEnd(const Bodies& b, const Batch& batch);
   bool goToReached(Model& w, Batch& batch, double h);
   void takeBest(Model& w, const Trial& trial);

@@ -132,7 +132,7 @@ void SmallSteps::Impl::takeBack(Batch& batch, ContactBlock& block, const LaneNum
     scale(back, -shares.of[l]);
     scale(block, 1 - shares.of[l]);
   }
-  contactKernels().warmStart(&back, 1, batch.motions.data());
+  contactKernels().give(&back, 1, batch.motions.data());
 }
 
 // What contacts of bodies that are apart (their `change` is 1) gave, from both sides.

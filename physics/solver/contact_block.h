@@ -69,6 +69,7 @@ struct alignas(32) ContactBlock {
   float gap[kPoints][8];
   float held[kPoints][8];   // what it carries where the bodies just touch
   float drawn[kPoints][8];  // by so much it is compressed there [m]
+  float lasted[8];          // what its points carried before the last substep
   float scale[8], rate[8];  // softness
   float push[8];            // overlap is taken back in a substep by no more [m]
   float change[2][8];       // sum of A dlambda^2 in the last velocity sweep, and the one before
@@ -115,6 +116,7 @@ struct ContactSweeps {
 struct ContactKernels : ContactSweeps {
   // Everything that follows from arms, n, gaps, lambda and bodies.
   void (*prepare)(ContactBlock* blocks, int count, const LaneMass* masses, FrictionAt friction);
+  void (*give)(const ContactBlock* blocks, int count, LaneMotion* motions);  // what lanes carry
   // lambda^T J u of each lane: eight numbers to a block.
   void (*measureWork)(const ContactBlock* blocks, int count, const LaneMotion* motions,
                       float* work);

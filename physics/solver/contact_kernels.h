@@ -11,8 +11,9 @@ struct Count {
   static constexpr int value = kCount;
 };
 
+// What the lanes carry, to the bodies.
 template <int kCount>
-inline void warmStartBlock(ContactBlock& m, LaneMotion* motions) {
+inline void giveBlock(const ContactBlock& m, LaneMotion* motions) {
   Moved a = gather(m.bodyA, motions), b = gather(m.bodyB, motions);
   Lanes sum = all(0);
   for (int i = 0; i < kCount; ++i) {
@@ -28,6 +29,23 @@ inline void warmStartBlock(ContactBlock& m, LaneMotion* motions) {
   push(m, load(m.n) * sum + load(t1.d) * along1 + load(t2.d) * along2, a, b);
   scatter(m.bodyA, load(m.massA), a, motions);
   scatter(m.bodyB, load(m.massB), b, motions);
+}
+
+// What was carried before is a load, that of an impact as well: where it has gone the sweep takes
+// it back. Friction is not swept there: what an impact lent it would push and turn the bodies on.
+// It is what the load can hold that has lasted for two substeps.
+template <int kCount>
+inline void warmStartBlock(ContactBlock& m, LaneMotion* motions) {
+  Lanes normal = all(0), turning = all(0);
+  for (int i = 0; i < kCount; ++i) {
+    const Lanes lambda = load(m.point[i].lambda);
+    normal = normal + lambda;
+    turning = turning + load(m.point[i].lever) * lambda;
+  }
+  const Lanes lasting = smaller(normal, load(m.lasted));
+  holdFriction(m, lasting, turning * (lasting / larger(normal, all(kTiny))));
+  store(m.lasted, normal);
+  giveBlock<kCount>(m, motions);
 }
 
 template <int kCount>

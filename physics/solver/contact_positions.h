@@ -32,19 +32,12 @@ inline void limitFriction(ContactBlock& m, const Lanes (&lambda)[kCount], Moved&
     normal = normal + lambda[i];
     turning = turning + load(m.point[i].lever) * lambda[i];
   }
-  const Lanes nuS = load(m.staticFriction), nuD = load(m.dynamicFriction);
-  ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
-  const Lanes last1 = load(t1.lambda), last2 = load(t2.lambda), twisted = load(m.twist);
-  const Lanes share = onDisc(last1 * last1 + last2 * last2, nuS * normal, nuD * normal);
-  const Lanes less1 = last1 * share - last1, less2 = last2 * share - last2;
-  const Lanes kept = onSegment(twisted, nuS * turning, nuD * turning);
-  turn(t1, less1, a, b);
-  turn(t2, less2, a, b);
-  twist(m, kept - twisted, a, b);
-  push(m, load(t1.d) * less1 + load(t2.d) * less2, a, b);
-  store(t1.lambda, last1 + less1);
-  store(t2.lambda, last2 + less2);
-  store(m.twist, kept);
+  const FrictionLoads less = holdFriction(m, normal, turning);
+  const ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
+  turn(t1, less.along1, a, b);
+  turn(t2, less.along2, a, b);
+  twist(m, less.twist, a, b);
+  push(m, load(t1.d) * less.along1 + load(t2.d) * less.along2, a, b);
 }
 
 // Where overlaps are, and what a substep takes back of them: lambda = -(s J u + aim) / A + (1 - s)

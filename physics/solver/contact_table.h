@@ -14,6 +14,11 @@ void warmStartAll(ContactBlock* blocks, int count, LaneMotion* motions) {
     warmStartBlock<points.value>(block, motions);
   });
 }
+void giveAll(const ContactBlock* blocks, int count, LaneMotion* motions) {
+  forEachBlock(blocks, count, [&](const ContactBlock& block, auto points) {
+    giveBlock<points.value>(block, motions);
+  });
+}
 void measureWorkAll(const ContactBlock* blocks, int count, const LaneMotion* motions, float* work) {
   forEachBlock(blocks, count, [&](const ContactBlock& block, auto points) {
     store(work + (&block - blocks) * ContactBlock::kLanes, workOf<points.value>(block, motions));
@@ -53,6 +58,7 @@ void balanceAll(ContactBlock* blocks, int count, LaneMotion* motions) {
 
 const ContactKernels KERNELS = {{warmStartAll, sweepPositionsAll, sweepVelocitiesAll},
                                 prepareAll,
+                                giveAll,
                                 measureWorkAll,
                                 findAimsAll,
                                 measureAll,
