@@ -532,7 +532,7 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
   }
   forEachPart(batch, [&](std::size_t i, int l, int part) {
     if (ends[part] != Ended::kAccepted) return;
-    takeOver(w.bodies, batch.blocks[i], l);
+    takeOver(w, batch.blocks[i], l, group[part]->whole);
   });
   for (std::size_t part = 0; part < group.size(); ++part) {
     if (ends[part] != Ended::kAccepted) continue;
@@ -540,7 +540,10 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
     if (group[part]->columns > 1) {
       holdLoads(w, *group[part]);
     } else {
-      for (const int k : batches[group[part]->batch].contacts) holdNoMore(contacts[k], h);
+      for (const int k : batches[group[part]->batch].contacts) {
+        KeptContact& c = contacts[k];
+        holdNoMore(c, std::accumulate(c.lambda.begin(), c.lambda.end(), 0.0) / (h * h));
+      }
     }
     for (const int k : batch.articulations) articulations[k].setOpened(false);
     batch.joints.finish(w.kinds, h);

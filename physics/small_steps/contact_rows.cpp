@@ -1,6 +1,7 @@
 // Contacts into the lanes that sweep over them, and back.
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 #include "physics/collision/feature.h"
 #include "physics/small_steps/small_steps_impl.h"
@@ -55,7 +56,7 @@ void emptyPoint(ContactBlock& block, int k, int l) {
 }
 
 // What lane l carried, of c: kept multipliers are scaled to substeps of h. `stayed`: only what has
-// been carried for two steps. Where these differ in length, what an impact gave within a short one
+// been carried before, too. Where steps differ in length, what an impact gave within a short one
 // would throw the bodies in a longer, as a force.
 void fillLoads(const KeptContact& c, double h, bool stayed, ContactBlock& block, int l) {
   const double scale = substepRatio(c, h);
@@ -173,19 +174,23 @@ void SmallSteps::Impl::takeOver(Model& w, Batch& batch) {
   physics::takeOver(batch.softRows, batch.soft);
   forEachGroup(w, batch, [&](int from, int to) {
     for (int i = from; i < to; ++i) {
-      for (int l = 0; l < ContactBlock::kLanes; ++l) takeOver(w.bodies, batch.blocks[i], l);
+      for (int l = 0; l < ContactBlock::kLanes; ++l) takeOver(w, batch.blocks[i], l, w.settings.dt);
     }
   });
 }
 
-void SmallSteps::Impl::takeOver(const Bodies& b, const ContactBlock& block, int l) {
+// Of a step that took `whole`. What it carried before is the average of as long as a step of the
+// world's takes: an impact that short steps are made for lasts for several of these.
+void SmallSteps::Impl::takeOver(const Model& w, const ContactBlock& block, int l, double whole) {
   if (block.contact[l] < 0) return;
   KeptContact& c = contacts[block.contact[l]];
-  const double h = lengthOf(b, c), scale = substepRatio(c, h);
+  const double h = lengthOf(w.bodies, c), scale = substepRatio(c, h),
+               part = c.whole / w.settings.dt;
   for (int k = 0; k < c.count; ++k) {
     // One that touched when it was first seen has carried its load before.
     const bool stood = c.step == 0 && block.gap[k][l] <= 0;
-    c.before[k] = stood ? block.point[k].lambda[l] : scale * c.lambda[k];
+    c.before[k] = stood ? whole / w.settings.dt * block.point[k].lambda[l]
+                        : scale * (c.before[k] + part * (c.lambda[k] - c.before[k]));
     c.lambda[k] = block.point[k].lambda[l];
   }
   c.tangential.setZero();
@@ -194,19 +199,16 @@ void SmallSteps::Impl::takeOver(const Bodies& b, const ContactBlock& block, int 
   }
   c.twist = block.twist[l];
   c.step = h;
+  c.whole = whole;
   if (!c.isLoaded()) c.held = {};
 }
 
 // What carries less than it gives way about would stand off the surface: where a load has gone,
 // what is held goes down with it, in the same parts.
-void SmallSteps::Impl::holdNoMore(KeptContact& c, double h) {
-  double sum = 0, held = 0;
-  for (int k = 0; k < c.count; ++k) {
-    sum += c.stayed(k) / (h * h);
-    held += c.held[k];
-  }
-  if (!(sum < held)) return;
-  for (double& of : c.held) of *= sum / held;
+void SmallSteps::Impl::holdNoMore(KeptContact& c, double carried) {
+  const double held = std::accumulate(c.held.begin(), c.held.end(), 0.0);
+  if (!(carried < held)) return;
+  for (double& of : c.held) of *= carried / held;
 }
 
 // Substeps do not follow what springs of jointed bodies are drawn by: a hand that carries a heap
@@ -225,16 +227,16 @@ void SmallSteps::Impl::holdCarried(const Model& w, const Batch& batch, double h)
       for (int k = 0; k < c.count; ++k) c.held[k] = c.stayed(k) / (h * h);
       continue;
     }
-    if (!isJointed(c)) {
-      holdNoMore(c, h);
-      continue;
-    }
     std::array<double, Manifold::kMaxPoints> stayed{};
     double sum = 0, held = 0;
     for (int k = 0; k < c.count; ++k) {
       stayed[k] = c.stayed(k) / (h * h);
       sum += stayed[k];
       held += c.held[k];
+    }
+    if (!isJointed(c)) {
+      holdNoMore(c, sum);
+      continue;
     }
     const double weight = g / (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
     const double beyond = sum > weight ? 1 - weight / sum : 0;

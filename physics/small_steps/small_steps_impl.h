@@ -466,9 +466,9 @@ struct SmallSteps::Impl {
   void renew(const Model& w, const Batch& batch, ContactBlock& block) const;
   void renewTurned(Model& w, Batch& batch);
   void takeOver(Model& w, Batch& batch);
-  static void holdNoMore(KeptContact& c, double h);
+  static void holdNoMore(KeptContact& c, double carried);  // N
   void holdCarried(const Model& w, const Batch& batch, double h);
-  void takeOver(const Bodies& b, const ContactBlock& block, int l);
+  void takeOver(const Model& w, const ContactBlock& block, int l, double whole);
   double sagOf(BodyId root) const;
   double sagOfColumn(BodyId root) const;
   void weighMotion(const Model& w, const Batch& batch);

@@ -7,9 +7,9 @@
 namespace physics {
 
 inline void archive(Archive& to, KeptContact& contact) {
-  auto& [a, b, key, radial, carried, count, normal, friction, step, lambda, before, held,
+  auto& [a, b, key, radial, carried, count, normal, friction, step, whole, lambda, before, held,
          tangential, twist, points] = contact;
-  to(a, b, key, radial, carried, count, normal, friction, step, tangential, twist);
+  to(a, b, key, radial, carried, count, normal, friction, step, whole, tangential, twist);
   for (auto* loads : {&lambda, &before, &held}) to.first(count, *loads);
   to.first(count, points);
 }

@@ -46,6 +46,7 @@ void match(const KeptContact& old, KeptContact& fresh) {
   fresh.tangential = old.tangential;
   fresh.twist = old.twist;
   fresh.step = old.step;
+  fresh.whole = old.whole;
 }
 
 void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
@@ -62,7 +63,7 @@ void take(const Manifold& found, const Bodies& bodies, KeptContact& fresh) {
   fresh.before = {};
   fresh.held = {};
   fresh.tangential.setZero();
-  fresh.twist = fresh.step = 0;
+  fresh.twist = fresh.step = fresh.whole = 0;
 }
 
 // Its surfaces are where the collider told them to be, and it has as many points as these: within

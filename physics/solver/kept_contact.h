@@ -20,9 +20,11 @@ struct KeptContact {
   int count = 0;
   Vec3 normal = Vec3::UnitY();  // body frame of b when carried, else world
   Friction friction;
-  double step = 0;  // the substep that the multipliers belong to [s]
-  // Impulses times the step, on a: along the normal, at the last substep and a step earlier; of
-  // friction at the centre (world), and of its twist about the normal.
+  // The substep that the multipliers belong to, and the step that this is the last of [s].
+  double step = 0, whole = 0;
+  // Impulses times the substep, on a: along the normal, at the last one, and before that step on
+  // the average of a step of the world's; of friction at the centre (world), and of its twist about
+  // the normal.
   std::array<double, Manifold::kMaxPoints> lambda{}, before{};
   // Force [N] about which it gives way: that the points carried where the world began, that two
   // rows of an accuracy's step agreed on, or that bodies with joints, and those whose loads are
