@@ -55,15 +55,16 @@ void emptyPoint(ContactBlock& block, int k, int l) {
   block.held[k][l] = p.lambda[l] = p.inverse[l] = 0;
 }
 
-// What lane l carried, of c: kept multipliers are scaled to substeps of h. `stayed`: only what has
-// been carried before, too. Where steps differ in length, what an impact gave within a short one
-// would throw the bodies in a longer, as a force.
+// What lane l carried, of c: kept multipliers are scaled to substeps of h. `stayed`: no more than
+// has been carried before, all in all. Where steps differ in length, what an impact gave within a
+// short one would throw the bodies in a longer, as a force.
 void fillLoads(const KeptContact& c, double h, bool stayed, ContactBlock& block, int l) {
   const double scale = substepRatio(c, h);
-  double before = 0;
+  const double before = std::accumulate(c.before.begin(), c.before.end(), 0.0);
+  const double now = std::accumulate(c.lambda.begin(), c.lambda.end(), 0.0);
+  const double kept = stayed && before < now ? scale * before / now : scale;
   for (int k = 0; k < c.count; ++k) {
-    before += c.before[k];
-    block.point[k].lambda[l] = static_cast<float>(scale * (stayed ? c.stayed(k) : c.lambda[k]));
+    block.point[k].lambda[l] = static_cast<float>(kept * c.lambda[k]);
     block.held[k][l] = static_cast<float>(h * h * c.held[k]);
   }
   block.lasted[l] = static_cast<float>(scale * before);
