@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "physics/base/rotation.h"
 #include "physics/model/factors.h"
@@ -153,13 +152,11 @@ bool SmallSteps::Impl::opensAtEnd(const Bodies& b, const Batch& batch) {
 
 // What rests is left to rest: where the last row's end is known no better, it is that. And where
 // contacts and joints hold there: what extrapolates does not know that nothing passes a surface,
-// and opens joints by the square of what rows differ by. Where bodies touch and rows differ by more
-// than was asked they lead nowhere: the last row's contacts give no energy.
+// and opens joints by the square of what rows differ by.
 void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
-  Batch& batch = batches[trial.batch];
   if (trial.changes > 0) return;
-  if (batch.deformables.empty() && trial.error > allowedError(w)) return;
   if (!(trial.tableau.gain(trial.extent, w.settings.dt, trial.levers) > kKnown)) return;
+  Batch& batch = batches[trial.batch];
   const double h = trial.whole / trial.steps;
   reached.pose.resize(batch.bodies.size());
   reached.velocity.resize(batch.bodies.size());
@@ -282,8 +279,8 @@ bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
   const auto stands = [&](int contact) {
     const KeptContact& c = contacts[contact];
     if (c.isHeld()) return true;
-    const double load = std::accumulate(c.lambda.begin(), c.lambda.end(), 0.0);
-    const double way = load * (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
+    const double way =
+        KeptContact::sumOf(c.lambda) * (w.bodies.inverse[c.a].m + w.bodies.inverse[c.b].m);
     return way <= kKnown * trial.extent;
   };
   return std::all_of(batch.contacts.begin(), batch.contacts.end(), stands);
@@ -451,7 +448,8 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
   const bool isLost = trial.changes > kMostPlaces;
   const bool isKnown = trial.columns > 1 || trial.isOneRow;
   const bool isSmall = isKnown && trial.error <= allowed;
-  const bool isFew = (!batch.deformables.empty() || trial.places <= kMostPlaces) && !isLost;
+  const bool isMesh = !batch.deformables.empty();
+  const bool isFew = (isMesh || trial.places <= kMostPlaces) && !isLost;
   const bool mayDivide = trial.whole > kLeastPart * dt && isFew && !trial.isRough;
   if (!mayDivide && makesFiner(w.bodies, batch)) {
     ++trial.told.rejected;
@@ -467,17 +465,19 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
     }
     return false;
   }
-  if (!isSmall && batch.deformables.empty()) miss(batch, missedBy(batch) + trial.error);
+  if (!isSmall && !isMesh) miss(batch, missedBy(batch) + trial.error);
   if (trial.isRough) {
     choice.takeAsItIs();
-    if (trial.error <= kAgreed * wayOf(w, trial)) takeBest(w, trial);
+    if (isMesh && trial.error <= kAgreed * wayOf(w, trial)) takeBest(w, trial);
   } else if (!isSmall) {
     choice.giveUp(isLost ? trial.error : 0);
   } else if (trial.isOneRow) {
     choice.rest();
     if (wayOf(w, trial) <= allowedError(w)) miss(batch, 0);
   } else {
-    takeBest(w, trial);
+    // Bodies that are off already may err by more: such rows lead nowhere, where the contacts of
+    // the last one give no energy.
+    if (trial.error <= allowedError(w)) takeBest(w, trial);
     choice.accept(trial.whole, trial.error, trial.coarser, {allowed}, dt);
   }
   noteMotion(w, trial);
@@ -542,7 +542,7 @@ void SmallSteps::Impl::conclude(Model& w, std::vector<Trial*>& group, Batch& bat
     } else {
       for (const int k : batches[group[part]->batch].contacts) {
         KeptContact& c = contacts[k];
-        holdNoMore(c, std::accumulate(c.lambda.begin(), c.lambda.end(), 0.0) / (h * h));
+        holdNoMore(c, KeptContact::sumOf(c.lambda) / (h * h));
       }
     }
     for (const int k : batch.articulations) articulations[k].setOpened(false);

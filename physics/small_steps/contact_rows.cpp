@@ -1,7 +1,6 @@
 // Contacts into the lanes that sweep over them, and back.
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
 #include "physics/collision/feature.h"
 #include "physics/small_steps/small_steps_impl.h"
@@ -55,14 +54,13 @@ void emptyPoint(ContactBlock& block, int k, int l) {
   block.held[k][l] = p.lambda[l] = p.inverse[l] = 0;
 }
 
-// What lane l carried, of c: kept multipliers are scaled to substeps of h. `stayed`: no more than
+// What lane l carried, of c: kept multipliers are scaled to substeps of h. `noMore`: than
 // has been carried before, all in all. Where steps differ in length, what an impact gave within a
 // short one would throw the bodies in a longer, as a force.
-void fillLoads(const KeptContact& c, double h, bool stayed, ContactBlock& block, int l) {
+void fillLoads(const KeptContact& c, double h, bool noMore, ContactBlock& block, int l) {
   const double scale = substepRatio(c, h);
-  const double before = std::accumulate(c.before.begin(), c.before.end(), 0.0);
-  const double now = std::accumulate(c.lambda.begin(), c.lambda.end(), 0.0);
-  const double kept = stayed && before < now ? scale * before / now : scale;
+  const double before = KeptContact::sumOf(c.before), now = KeptContact::sumOf(c.lambda);
+  const double kept = noMore && before < now ? scale * before / now : scale;
   for (int k = 0; k < c.count; ++k) {
     block.point[k].lambda[l] = static_cast<float>(kept * c.lambda[k]);
     block.held[k][l] = static_cast<float>(h * h * c.held[k]);
@@ -207,7 +205,7 @@ void SmallSteps::Impl::takeOver(const Model& w, const ContactBlock& block, int l
 // What carries less than it gives way about would stand off the surface: where a load has gone,
 // what is held goes down with it, in the same parts.
 void SmallSteps::Impl::holdNoMore(KeptContact& c, double carried) {
-  const double held = std::accumulate(c.held.begin(), c.held.end(), 0.0);
+  const double held = KeptContact::sumOf(c.held);
   if (!(carried < held)) return;
   for (double& of : c.held) of *= carried / held;
 }

@@ -36,15 +36,10 @@ inline void giveBlock(const ContactBlock& m, LaneMotion* motions) {
 // It is what the load can hold that has lasted for two substeps.
 template <int kCount>
 inline void warmStartBlock(ContactBlock& m, LaneMotion* motions) {
-  Lanes normal = all(0), turning = all(0);
-  for (int i = 0; i < kCount; ++i) {
-    const Lanes lambda = load(m.point[i].lambda);
-    normal = normal + lambda;
-    turning = turning + load(m.point[i].lever) * lambda;
-  }
-  const Lanes lasting = smaller(normal, load(m.lasted));
-  holdFriction(m, lasting, turning * (lasting / larger(normal, all(kTiny))));
-  store(m.lasted, normal);
+  const NormalLoads now = normalLoadsOf<kCount>(m);
+  const Lanes lasting = smaller(now.sum, load(m.lasted));
+  holdFriction(m, {lasting, now.turning * (lasting / larger(now.sum, all(kTiny)))});
+  store(m.lasted, now.sum);
   giveBlock<kCount>(m, motions);
 }
 

@@ -95,19 +95,33 @@ inline Lanes onDisc(Lanes squared, Lanes staticLimit, Lanes dynamicLimit) {
   return wherePositive(beyond, dynamicLimit / root(larger(squared, all(kTiny))), all(1));
 }
 
+// What the points carry in all, and by that how friction about their centre is held.
+struct NormalLoads {
+  Lanes sum = all(0), turning = all(0);
+};
+template <int kCount>
+inline NormalLoads normalLoadsOf(const ContactBlock& m) {
+  NormalLoads loads;
+  for (int i = 0; i < kCount; ++i) {
+    const Lanes lambda = load(m.point[i].lambda);
+    loads.sum = loads.sum + lambda;
+    loads.turning = loads.turning + load(m.point[i].lever) * lambda;
+  }
+  return loads;
+}
+
 struct FrictionLoads {
   Lanes along1, along2, twist;
 };
 
-// Of friction only what points that carry `normal` can hold, and `turning` about their centre.
-// Returned: what that is less.
-inline FrictionLoads holdFriction(ContactBlock& m, Lanes normal, Lanes turning) {
+// Of friction only what these hold. Returned: what that is less.
+inline FrictionLoads holdFriction(ContactBlock& m, const NormalLoads& normal) {
   const Lanes nuS = load(m.staticFriction), nuD = load(m.dynamicFriction);
   ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
   const Lanes last1 = load(t1.lambda), last2 = load(t2.lambda), twisted = load(m.twist);
-  const Lanes share = onDisc(last1 * last1 + last2 * last2, nuS * normal, nuD * normal);
+  const Lanes share = onDisc(last1 * last1 + last2 * last2, nuS * normal.sum, nuD * normal.sum);
   const Lanes less1 = last1 * share - last1, less2 = last2 * share - last2;
-  const Lanes kept = onSegment(twisted, nuS * turning, nuD * turning);
+  const Lanes kept = onSegment(twisted, nuS * normal.turning, nuD * normal.turning);
   store(t1.lambda, last1 + less1);
   store(t2.lambda, last2 + less2);
   store(m.twist, kept);

@@ -26,13 +26,8 @@ inline void forgetFriction(ContactBlock& m, Blocks near, Lanes deep, Moved& a, M
 // Friction of before gives no more than what the points carry now can hold: bodies would gain
 // energy by the rest.
 template <int kCount>
-inline void limitFriction(ContactBlock& m, const Lanes (&lambda)[kCount], Moved& a, Moved& b) {
-  Lanes normal = all(0), turning = all(0);
-  for (int i = 0; i < kCount; ++i) {
-    normal = normal + lambda[i];
-    turning = turning + load(m.point[i].lever) * lambda[i];
-  }
-  const FrictionLoads less = holdFriction(m, normal, turning);
+inline void limitFriction(ContactBlock& m, Moved& a, Moved& b) {
+  const FrictionLoads less = holdFriction(m, normalLoadsOf<kCount>(m));
   const ContactBlock::Tangent &t1 = m.tangent[0], &t2 = m.tangent[1];
   turn(t1, less.along1, a, b);
   turn(t2, less.along2, a, b);
@@ -111,7 +106,7 @@ inline void sweepPositionsBlock(ContactBlock& m, LaneMotion* motions, PositionSw
     a = in(near, a, lastA);
     b = in(near, b, lastB);
   } else {
-    limitFriction<kCount>(m, lambda, a, b);
+    limitFriction<kCount>(m, a, b);
   }
   scatter(m.bodyA, load(m.massA), a, motions);
   scatter(m.bodyB, load(m.massB), b, motions);

@@ -166,8 +166,7 @@ ContactPair pairOf(const KeptContact& contact, double step) {
   pair.friction = contact.friction;
   pair.count = contact.count;
   const double scale = contact.step > 0 ? step / contact.step : 0;
-  double sum = 0;
-  for (int k = 0; k < contact.count; ++k) sum += contact.lambda[k];
+  const double sum = KeptContact::sumOf(contact.lambda);
   for (int k = 0; k < contact.count; ++k) {
     pair.points[k].shape = contact.points[k];
     pair.points[k].normalTotal = scale * contact.lambda[k];

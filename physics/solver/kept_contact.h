@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,10 @@ struct KeptContact {
   double twist = 0;
   std::array<ContactPoint, Manifold::kMaxPoints> points;
 
+  // Of the points of one of these, in all.
+  static double sumOf(const std::array<double, Manifold::kMaxPoints>& loads) {
+    return std::accumulate(loads.begin(), loads.end(), 0.0);
+  }
   double stayed(int point) const { return std::min(lambda[point], before[point]); }  // in both
   bool isLoaded() const { return lambda != std::array<double, Manifold::kMaxPoints>{}; }
   bool isHeld() const { return held != std::array<double, Manifold::kMaxPoints>{}; }

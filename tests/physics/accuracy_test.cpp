@@ -588,14 +588,7 @@ TEST(Accuracy, OfJointedBoxesThatTumbleGainsNoEnergy) {
       const double x = within(size), y = within(size);
       return Vec3(x, y, within(size));
     };
-    Settings settings = asking(1e-3);
-    settings.contact.emplace();
-    settings.contact->friction = {1, 1};
-    World world(settings);
-    BodyDef ground;
-    ground.motion = Motion::kStatic;
-    ground.shape = Plane{};
-    world.add(ground);
+    World world = onFloor(1e-3, 1);
     BallSocketDef joint;
     for (int k = 0; k < 2; ++k) {
       BodyDef box;
