@@ -14,9 +14,9 @@ inline constexpr double kSlowest = 1e-9;  // m/s: slower than this is rounding
 
 // What an impulse of 1 along a direction at a point does to a pair.
 struct Lever {
-  Vec3 n, wa, wb;  // turns: I^-1 (r x n)
-  Vec3 na, nb;     // r x n
-  double resistance;
+  Vec3 n = Vec3::Zero(), wa = Vec3::Zero(), wb = Vec3::Zero();  // turns: I^-1 (r x n)
+  Vec3 na = Vec3::Zero(), nb = Vec3::Zero();                    // r x n
+  double resistance = 0;
 };
 
 Lever leverOf(const ContactPair& pair, const Vec3& point, const Vec3& n, const Bodies& bodies);
