@@ -66,23 +66,25 @@ void SmallSteps::Impl::goBack(Bodies& b, const Batch& batch) {
 }
 
 // Contacts that touch at other points at the end of a row than they did before the step, or that
-// slide or stick now and did not.
+// slide or stick now and did not. An impact at the end of a step that coarser rows come to, and
+// finer ones do not, follows no power of h either.
 void SmallSteps::Impl::countChanges(std::span<Trial* const> group, const Batch& batch) const {
   for (Trial* trial : group) trial->changes = 0;
   forEachPart(batch, [&](std::size_t i, int l, int part) {
     const ContactBlock& block = batch.blocks[i];
     const KeptContact& c = contacts[block.contact[l]];
     double sum = 0, before = 0;
-    bool isChanged = false;
+    bool isElsewhere = false;
     for (int k = 0; k < c.count; ++k) {
       const double load = block.point[k].lambda[l];
-      isChanged = isChanged || (load > 0) != (c.lambda[k] > 0);
+      isElsewhere = isElsewhere || (load > 0) != (c.lambda[k] > 0);
       sum += load;
       before += c.lambda[k];
     }
     const double along = std::hypot(block.tangent[0].lambda[l], block.tangent[1].lambda[l]);
-    isChanged = isChanged || slides(c, along, sum) != slides(c, c.tangential.norm(), before);
-    group[part]->changes += isChanged;
+    group[part]->isSmooth = group[part]->isSmooth && !isElsewhere;
+    group[part]->changes +=
+        isElsewhere || slides(c, along, sum) != slides(c, c.tangential.norm(), before);
   });
 }
 
@@ -154,7 +156,7 @@ bool SmallSteps::Impl::opensAtEnd(const Bodies& b, const Batch& batch) {
 // contacts and joints hold there: what extrapolates does not know that nothing passes a surface,
 // and opens joints by the square of what rows differ by.
 void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
-  if (trial.changes > 0) return;
+  if (trial.changes > 0 || !trial.isSmooth) return;
   if (!(trial.tableau.gain(trial.extent, w.settings.dt, trial.levers) > kKnown)) return;
   Batch& batch = batches[trial.batch];
   const double h = trial.whole / trial.steps;
@@ -166,6 +168,49 @@ void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
     w.bodies.velocity[batch.bodies[k]] = reached.velocity[k];
   }
   for (const int d : batch.deformables) close(w, deformables[d], h);
+  if (batch.deformables.empty() && !batch.isMixed()) putOnContacts(w, batch);
+}
+
+// Whose contacts carry load is where these touch. What rows lead to is off by what they differ by,
+// and no row takes that back by powers of h: a hoop that rolls would rock, more with every step.
+void SmallSteps::Impl::putOnContacts(Model& w, const Batch& batch) {
+  constexpr int kSweeps = 4;  // what is left is for the next step's
+  for (const BodyId i : batch.bodies) takeMass(w, i);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (const int contact : batch.contacts) {
+      for (int k = 0; k < contacts[contact].count; ++k) {
+        if (rowLoads[contact][k] > 0) putOn(w.bodies, contacts[contact], k);
+      }
+    }
+  }
+}
+
+// Both bodies, each as it resists a push along the normal.
+void SmallSteps::Impl::putOn(Bodies& b, const KeptContact& c, int point) const {
+  struct Side {
+    BodyId body;
+    double sign;
+    Vec3 at;
+    Displacement way = {};  // by a unit of push
+  };
+  const ContactPoint& shape = c.points[point];
+  const Vec3 n = normalOf(c, b.pose);
+  Side sides[] = {{c.a, 1, b.pose[c.a].q * shape.coreA - shape.radiusA * n},
+                  {c.b, -1, b.pose[c.b].q * shape.coreB + shape.radiusB * n}};
+  double gap = 0, gives = 0;
+  for (Side& side : sides) {
+    gap += side.sign * n.dot(b.pose[side.body].x + side.at);
+    if (!isMovable(b, side.body)) continue;
+    const JointMass& mass = masses[side.body];
+    const Vec3 lever = side.at.cross(n);
+    side.way = {side.sign * mass.inverse * n, side.sign * (mass.inertia * lever)};
+    gives += mass.inverse + lever.dot(mass.inertia * lever);
+  }
+  if (!(gives > 0)) return;
+  for (const Side& side : sides) {
+    if (!isMovable(b, side.body)) continue;
+    displace(b.pose[side.body], -gap / gives * side.way.u, -gap / gives * side.way.theta);
+  }
 }
 
 // What rows lead to is off what holds a mesh by the square of what they differ by.
@@ -390,6 +435,7 @@ void SmallSteps::Impl::addRow(Model& w, std::span<Trial* const> group, Batch& ba
   now = w.time() + (w.settings.dt - group[0]->left);
   runSubsteps(w, batch, group[0]->whole / steps, steps, report);
   noteLoads(w, batch);
+  countChanges(group, batch);
   for (Trial* trial : group) addRow(w, *trial);
 }
 
@@ -414,7 +460,10 @@ void SmallSteps::Impl::addRow(const Model& w, Trial& trial) {
 // further columns, where it is smooth and they do.
 void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepReport& report) {
   const int most = group[0]->most, columns = group[0]->columns;
-  for (Trial* trial : group) trial->tableau.clear(batches[trial->batch].bodies.size());
+  for (Trial* trial : group) {
+    trial->tableau.clear(batches[trial->batch].bodies.size());
+    trial->isSmooth = true;
+  }
   for (int first = 1, last = columns; !group.empty(); first = ++last) {
     Batch& batch = lanesFor(w, group);
     batch.isLost = group[0]->isLost;
@@ -424,7 +473,6 @@ void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepRep
     for (int row = first; row <= last; ++row) {
       addRow(w, group, batch, (most * row + columns - 1) / columns, report);
     }
-    countChanges(group, batch);
     conclude(w, group, batch);
   }
 }
@@ -501,7 +549,7 @@ bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
     trial.needsMore = !trial.isOneRow;
   } else if (trial.isLost) {
     trial.error = choice.lost();
-  } else if (trial.changes > 0) {
+  } else if (trial.changes > 0 || !trial.isSmooth) {
     trial.error =
         std::max(trial.error, trial.tableau.gain(trial.extent, w.settings.dt, trial.levers));
   } else if (trial.isRough) {

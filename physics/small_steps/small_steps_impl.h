@@ -166,7 +166,8 @@ struct SmallSteps::Trial {
   Tableau tableau;
   std::vector<double> levers;                              // by body
   double allowed = 0, extent = 0, error = 0, coarser = 0;  // coarser: by a column less
-  int places = 0, changes = 0;  // bodies that err by too much; contacts that changed
+  int places = 0, changes = 0;  // bodies that err by too much; contacts that its last row changed
+  bool isSmooth = true;         // in all rows contacts touch where they did
   int flights = 0;
   bool isOneRow = false, needsMore = false;  // it is tried by one row; that did not do
   double oneRowErrs = 0;                     // by what is known of it; infinite: nothing is
@@ -341,6 +342,8 @@ struct SmallSteps::Impl {
   bool opensAtEnd(const Bodies& b, const Batch& batch);
   bool goToReached(Model& w, Batch& batch, double h);
   void takeBest(Model& w, const Trial& trial);
+  void putOnContacts(Model& w, const Batch& batch);
+  void putOn(Bodies& b, const KeptContact& c, int point) const;
   void goBack(Bodies& b, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch, std::size_t k);
   void run(Model& w, Batch& batch, double h, int count, StepReport& report);
