@@ -191,8 +191,10 @@ int SmallSteps::Impl::leastOf(const Model& w, BodyId i) const {
   const BodyId root = islands[i];
   const bool isPoint = std::holds_alternative<PointShape>(w.bodies.shape[i]);
   if (isPoint || deformableOf[i] >= 0) return kLeastSwept;
-  // A step that knows what it errs by, of what is where it should be, needs no more for safety.
-  if (w.settings.accuracy && choices[root].resolves() && !(missed[i] > 0)) return 1;
+  // A step that knows what it errs by, of what is where it should be, needs no more for safety; nor
+  // does one that is exact.
+  const bool isKnown = !(missed[i] > 0) || oneRowErrs[root] <= kKnown;
+  if (w.settings.accuracy && isKnown && choices[root].resolves()) return 1;
   const bool isTouching = held[root] == Held::kTouching;
   const bool isSwept = isTouching && (joined[root] == Joined::kNot || atOnce[root]);
   return isSwept ? kLeastSwept : kLeastSolved;
