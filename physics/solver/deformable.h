@@ -203,6 +203,7 @@ class Deformable {
   bool chooseAgain(bool isLate, std::span<const Displacement> moved);
   double shareOfStep(std::span<const Pose> pose, std::span<const Displacement> moved) const;
   void takePositions(double share, std::span<Displacement> moved);
+  void noteStart(std::span<const Displacement> moved);
   bool isClosed(std::span<const Displacement> moved, double closed) const;
   void solveVelocities(std::span<Displacement> moved);
   void factorize(bool positions);

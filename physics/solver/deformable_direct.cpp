@@ -261,8 +261,7 @@ void Deformable::solveAllPositions(const JointStage& stage) {
     factor_->factor.forget();
   }
   evaluate(stage, true);
-  from_.clear();
-  for (const BodyId i : solved_) from_.push_back(stage.moved[i]);
+  noteStart(stage.moved);
   for (int step = 1;; ++step) {
     solveProgram(step == 1, stage.moved);
     const double share = shareOfStep(stage.pose, stage.moved);
@@ -272,12 +271,19 @@ void Deformable::solveAllPositions(const JointStage& stage) {
   }
 }
 
-// What the last step of Newton's changed is nothing to the way that was made.
+// Where Newton's method starts.
+void Deformable::noteStart(std::span<const Displacement> moved) {
+  from_.clear();
+  for (const BodyId i : solved_) from_.push_back(moved[i]);
+}
+
+// What the last step of Newton's changed is nothing to the way that was made, or was taken back of
+// what the bodies would have moved by on their own.
 bool Deformable::isClosed(std::span<const Displacement> moved, double closed) const {
   double change = 0, way = 0;
   for (std::size_t k = 0; k < solved_.size(); ++k) {
     change = std::max(change, changeOf(solved_[k]).u.squaredNorm());
-    way = std::max(way, moved[solved_[k]].u.squaredNorm());
+    way = std::max({way, moved[solved_[k]].u.squaredNorm(), from_[k].u.squaredNorm()});
   }
   return !(change > closed * closed * way);
 }

@@ -308,6 +308,7 @@ void Deformable::preparePointVelocities(std::span<const Displacement> moved) {
 // of what is stiff that is energy.
 void Deformable::solvePointPositions(const JointStage& stage, double closed) {
   evaluate(stage, true);
+  noteStart(stage.moved);
   for (int step = 1;; ++step) {
     turnFrom(stage.moved);
     const double share = solvePoints(true, step == 1, stage.masses, stage.moved);
