@@ -16,7 +16,7 @@ struct Frame {
 
   Frame(const Solid& box, int face)
       : k(face / 2), u((k + 1) % 3), v((k + 2) % 3), sign(face % 2 ? 1 : -1), height(box.half[k]) {}
-  Spot spot(const Vec3& p) const { return {p[u], p[v], sign * p[k] - height, 0}; }
+  Spot spot(const Vec3& p) const { return {p[u], p[v], sign * p[k] - height, 0, 0}; }
   Vec3 point(const Spot& spot, double gap) const {
     Vec3 p;
     p[u] = spot.u;
@@ -46,7 +46,7 @@ Corner cut(const Corner& from, const Corner& to, double fromOut, double toOut, i
   const double part = fromOut / (fromOut - toOut);
   const auto between = [&](double p, double q) { return p + part * (q - p); };
   return {{between(from.spot.u, to.spot.u), between(from.spot.v, to.spot.v),
-           between(from.spot.gap, to.spot.gap), 0},
+           between(from.spot.gap, to.spot.gap), 0, 0},
           cutId(from.edge, static_cast<std::uint32_t>(side)),
           from.edge};
 }
@@ -134,10 +134,17 @@ void finish(const Solid& a, const Solid& b, const Relative& pose, const FacePoin
     spots[i] = points.corners[i].spot;
     spots[i].feature = facetFeature(points.owner, points.face, points.corners[i].id);
   }
-  Choice chosen = choose({spots.data(), static_cast<std::size_t>(points.count)}, limits);
-  chosen.sort([&](int i) { return spots[i].feature; });
   out.normal =
       ofA ? Vec3(-frame.sign * pose.R.col(frame.k)) : Vec3(frame.sign * Vec3::Unit(frame.k));
+  if (limits.looksAhead(points.count)) {
+    const GapChange change(pose, out.normal, *limits.ends, points.owner);
+    for (int i = 0; i < points.count; ++i) {
+      const Vec3 p = frame.point(spots[i], spots[i].gap + other.rounding);
+      spots[i].ahead = spots[i].gap + change.of(ofA ? Vec3(pose.R * p + pose.t) : p);
+    }
+  }
+  Choice chosen = choose({spots.data(), static_cast<std::size_t>(points.count)}, limits);
+  chosen.sort([&](int i) { return spots[i].feature; });
   out.count = chosen.count;
   for (int k = 0; k < chosen.count; ++k) {
     const Corner& corner = points.corners[chosen.index[k]];

@@ -9,6 +9,7 @@
 #include "physics/base/archive.h"
 #include "physics/base/profile.h"
 #include "physics/base/workers.h"
+#include "physics/collision/contacts.h"
 #include "physics/collision/mesh_contacts.h"
 #include "physics/collision/narrow.h"
 #include "physics/collision/pairs.h"
@@ -31,12 +32,6 @@ constexpr double kSpare = 0.1;  // of the margin: looked further than asked, so 
 // The most that two items can come closer during the step along n, from b to a.
 double approach(const Item& a, const Item& b, const Vec3& n) {
   return std::max(0.0, -n.dot(a.move - b.move)) + a.turn + b.turn;
-}
-
-// What hits may add to that. Of two that move, what hits alone do is found in the next step.
-double pushOf(const Item& a, const Item& b) {
-  const double byJoints = std::max(a.push.byJoints, b.push.byJoints);
-  return a.movable && b.movable ? byJoints : std::max({a.push.alone, b.push.alone, byJoints});
 }
 
 // The same in any direction; towards a plane there is but one.
@@ -120,7 +115,7 @@ struct Collider::Impl {
   void look(Watch& watch) {
     const Item &a = pairs.items()[watch.a], &b = pairs.items()[watch.b];
     Finding& found = pairs.finding(watch);
-    const double margin = step.margin + pushOf(a, b), reach = margin + approach(a, b);
+    const double margin = step.margin + std::max(a.push, b.push), reach = margin + approach(a, b);
     watch.calls = 0;
     watch.isNew = false;
     if (watch.known && stays(watch, a, b, reach, margin)) return;
@@ -134,7 +129,8 @@ struct Collider::Impl {
     if (b.solid.kind == SolidKind::triangles) return lookAtMesh(watch, found, a, b, near, reach);
     const double turn = a.turn + b.turn;
     found.manifold.count = watch.count;
-    watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, turn, found.manifold);
+    const Ends ends{a.at(step.end[a.body]), b.at(step.end[b.body])};
+    watch.distance = touch(a.solid, b.solid, pose, near, watch.reach, turn, found.manifold, &ends);
     watch.setNormal(found.manifold.normal);
     ++watch.calls;
     const bool onTheWay = watch.distance > near && watch.distance <= reach &&
@@ -185,7 +181,8 @@ struct Collider::Impl {
     const Relative pose = collision::relativePose(along(wayA, part), along(wayB, part));
     const double near = std::max(close, step.margin);
     const double keep = near + (1 - part) * approach(a, b), turn = (1 - part) * (a.turn + b.turn);
-    touch(a.solid, b.solid, pose, near, keep, turn, manifold);
+    const Ends ends{wayA.end, wayB.end};
+    touch(a.solid, b.solid, pose, near, keep, turn, manifold, &ends);
     return static_cast<std::uint8_t>(calls);
   }
 
@@ -258,7 +255,7 @@ std::span<const Manifold> Collider::find(std::span<const Pose> start, std::span<
 }
 
 std::span<const Found> Collider::look(std::span<const Pose> start, std::span<const Pose> end,
-                                      double margin, std::span<const HitPush> push,
+                                      double margin, std::span<const double> push,
                                       Workers& workers) {
   constexpr int kLeastPairs = 64;  // of a thread
   require(margin >= 0, "collider: margin must not be negative");

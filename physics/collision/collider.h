@@ -40,12 +40,6 @@ struct Manifold {
   std::array<ContactPoint, kMaxPoints> points;
 };
 
-// How much further than it is about to go hits may take a body [m]: those of its own, by which what
-// does not move is looked for; those that its joints pass on, by which all is.
-struct HitPush {
-  double alone = 0, byJoints = 0;
-};
-
 // A manifold where the collider keeps it. Not new: as the last look told it.
 struct Found {
   const Manifold* manifold = nullptr;
@@ -80,7 +74,7 @@ class Collider {
   // other. `push`, by BodyId or empty: further than to `end`. What bodies may meet by that is told
   // as if they approached each other by so much more.
   std::span<const Found> look(std::span<const Pose> start, std::span<const Pose> end, double margin,
-                              std::span<const HitPush> push, Workers& workers);
+                              std::span<const double> push, Workers& workers);
   std::span<const Found> found() const;  // by the last look
 
   // The manifold of a pair that a look found, at these poses of its two bodies: the points whose

@@ -99,13 +99,19 @@ class Spots {
   const Limits& limits_;
 };
 
-// The deepest spot, where it is clearly deeper than those chosen: of four it takes the place of the
-// one nearest to it.
-void insistOnDeepest(std::span<const Spot> spots, double clearly, Choice& chosen) {
+int deepestOf(std::span<const Spot> spots, double Spot::*gap) {
   int deepest = 0;
   for (int i = 1; i < static_cast<int>(spots.size()); ++i) {
-    if (spots[i].gap < spots[deepest].gap) deepest = i;
+    if (spots[i].*gap < spots[deepest].*gap) deepest = i;
   }
+  return deepest;
+}
+
+// The deepest spot, where it is clearly deeper than those chosen: of four it takes the place of the
+// one nearest to it, but not that of `stays`.
+void insistOnDeepest(std::span<const Spot> spots, double Spot::*gap, int stays, double clearly,
+                     Choice& chosen) {
+  const int deepest = deepestOf(spots, gap);
   if (chosen.count == 0 || chosen.has(deepest)) return;
   const Spot& deep = spots[deepest];
   int nearest = 0;
@@ -113,10 +119,11 @@ void insistOnDeepest(std::span<const Spot> spots, double clearly, Choice& chosen
   for (int k = 0; k < chosen.count; ++k) {
     const Spot& spot = spots[chosen.index[k]];
     const double du = spot.u - deep.u, dv = spot.v - deep.v;
+    lowest = std::min(lowest, spot.*gap);
+    if (chosen.index[k] == stays) continue;
     if (du * du + dv * dv < best) best = du * du + dv * dv, nearest = k;
-    lowest = std::min(lowest, spot.gap);
   }
-  if (!(deep.gap < lowest - clearly)) return;
+  if (!(deep.*gap < lowest - clearly)) return;
   if (chosen.count < Manifold::kMaxPoints) return chosen.take(deepest);
   chosen.index[nearest] = deepest;
 }
@@ -130,8 +137,24 @@ Choice choose(std::span<const Spot> spots, const Limits& limits) {
     const Choice stayed = all.stayed();
     if (2 * all.twiceAreaOf(stayed) > all.twiceAreaOf(chosen)) chosen = stayed;
   }
-  insistOnDeepest(spots, limits.clearly, chosen);
+  insistOnDeepest(spots, &Spot::gap, -1, limits.clearly, chosen);
+  if (limits.looksAhead(static_cast<int>(spots.size()))) {
+    insistOnDeepest(spots, &Spot::ahead, deepestOf(spots, &Spot::gap), limits.clearly, chosen);
+  }
   return chosen;
+}
+
+GapChange::GapChange(const Relative& pose, const Vec3& n, const Ends& ends, Owner owner) {
+  const auto& [a, b] = ends;
+  if (owner == Owner::b) {
+    const Vec3 then = b.q * n;  // world
+    slope_ = pose.R * (a.q.conjugate() * then) - n;
+    move_ = then.dot(a.x - b.x) - n.dot(pose.t) - slope_.dot(pose.t);
+  } else {
+    const Vec3 then = a.q * (pose.R.transpose() * n);
+    slope_ = n - b.q.conjugate() * then;
+    move_ = then.dot(a.x - b.x) - n.dot(pose.t);
+  }
 }
 
 double offset(const Vec3& n, const Vec3& apart) { return (apart - n.dot(apart) * n).norm(); }
@@ -239,7 +262,11 @@ void finish(const Contacts& contacts, const Relative& pose, const Limits& limits
   std::array<Spot, Patch::kRoom> spots;
   for (int i = 0; i < contacts.count; ++i) {
     const Candidate& point = contacts.points[i];
-    spots[i] = {point.onA.dot(t1), point.onA.dot(t2), point.gap, point.feature};
+    spots[i] = {point.onA.dot(t1), point.onA.dot(t2), point.gap, point.gap, point.feature};
+  }
+  if (limits.looksAhead(contacts.count)) {
+    const GapChange change(pose, contacts.n, *limits.ends, Owner::b);
+    for (int i = 0; i < contacts.count; ++i) spots[i].ahead += change.of(contacts.points[i].onA);
   }
   Choice chosen = choose({spots.data(), static_cast<std::size_t>(contacts.count)}, limits);
   chosen.sort([&](int i) { return contacts.points[i].feature; });

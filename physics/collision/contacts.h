@@ -60,17 +60,39 @@ void touchFacet(const Solid& a, const Solid& b, const Relative& pose, Owner owne
 void touchLines(const Line& a, const Line& b, std::uint32_t feature, double flatness,
                 Contacts& contacts);
 
+// Where the two solids are at the end of the step.
+struct Ends {
+  Pose a, b;
+};
+
+// What gaps along n, the normal of a facet of the owner (b's frame, from b to a), change by in the
+// step.
+class GapChange {
+ public:
+  GapChange(const Relative& pose, const Vec3& n, const Ends& ends, Owner owner);
+  double of(const Vec3& p) const { return move_ + slope_.dot(p); }  // of the other, b's frame
+
+ private:
+  Vec3 slope_;
+  double move_;
+};
+
 // Which of the points found are kept.
 struct Limits {
   double keep = 0;     // m: gaps up to this
   double tie = 0;      // m: points this close in rank are one, the earlier
   double clearly = 0;  // m: a point this much deeper than those chosen is chosen
   std::span<const std::uint32_t> before = {};  // features of the points that were kept last
+  const Ends* ends = nullptr;                  // none: nothing is known of them
+
+  // There are more than a manifold has, and the step tells which of them are needed at its end.
+  bool looksAhead(int count) const { return ends != nullptr && count > Manifold::kMaxPoints; }
 };
 
 // A point in the plane of touch; u and v along two axes of the plane.
 struct Spot {  // left uninitialised on purpose
   double u, v, gap;
+  double ahead;  // the gap at the end of the step, where Limits::looksAhead
   std::uint32_t feature;
 };
 struct Choice {
@@ -95,7 +117,8 @@ struct Choice {
   }
 };
 // At most four of the spots: those that were kept last while they span half of what touches, else
-// those that span the most; and the deepest where it is clearly deeper than those. What a body
+// those that span the most; and the deepest, and the one that will be, where it is clearly deeper
+// than those: without it a corner that turns in would be missed for a step. What a body
 // leans on beside those that span the most stays when it no longer leans.
 Choice choose(std::span<const Spot> spots, const Limits& limits);
 

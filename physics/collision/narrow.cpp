@@ -232,13 +232,13 @@ void touchParting(const Solid& a, const Solid& b, const Relative& pose, const Ve
 }
 
 double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
-             double turn, Manifold& out) {
+             double turn, Manifold& out, const Ends* ends) {
   const double size = smallerSize(a, b);
   const bool rim = a.kind == SolidKind::cylinder || b.kind == SolidKind::cylinder;
   std::array<std::uint32_t, Manifold::kMaxPoints> before;
   for (int k = 0; k < out.count; ++k) before[k] = out.points[k].feature;
   const Limits limits{keep, kTie * size, (rim ? kRimDeeper : kDeeper) * size,
-                      std::span(before).first(out.count)};
+                      std::span(before).first(out.count), ends};
   out.count = 0;
   Contacts contacts;
   double distance = 0;

@@ -12,9 +12,11 @@ namespace physics::collision {
 // that far apart along out.normal. It is the best bound of the directions tried unless above
 // `keep`. `turn` [m]: what corners may turn by before the two are looked at again. Faces that are
 // nearly parallel meet with all of their corners then, though two of their edges are nearer now.
-// Where more points touch than a manifold has, those that `out` has from the last look stay.
+// Where more points touch than a manifold has, those that `out` has from the last look stay, and
+// the deepest at `ends` is one of them.
+struct Ends;
 double touch(const Solid& a, const Solid& b, const Relative& pose, double reach, double keep,
-             double turn, Manifold& out);
+             double turn, Manifold& out, const Ends* ends = nullptr);
 
 // Whether that decides which of the two features touch.
 bool turnsFar(const Solid& a, const Solid& b, double turn);

@@ -43,7 +43,7 @@ Bounds path(const Item& item) {
                       (start.high + turn).cwiseMin(item.x + size)};
   const Bounds way =
       joined(joined(start, turned), {turned.low + item.move, turned.high + item.move});
-  return grown(way, std::max(item.push.alone, item.push.byJoints));
+  return grown(way, item.push);
 }
 
 // Room for more steps like this one, and for a little more in all directions.
@@ -320,11 +320,11 @@ void Pairs::forEachTaken(Workers& workers, F&& f) const {
 
 // True: a plane moved.
 bool Pairs::takeMotions(std::span<const Pose> start, std::span<const Pose> end,
-                        std::span<const HitPush> push, Workers& workers) {
+                        std::span<const double> push, Workers& workers) {
   std::atomic<bool> some = false;
   forEachTaken(workers, [&](int i) {
     Item& item = items_[i];
-    item.push = push.empty() ? HitPush{} : push[item.body];
+    item.push = push.empty() ? 0 : push[item.body];
     if (takeMotion(i, start[item.body], end[item.body])) some = true;
   });
   return some;
@@ -341,7 +341,7 @@ bool Pairs::takeBounds(int i, double margin, bool all) {
 }
 
 bool Pairs::update(std::span<const Pose> start, std::span<const Pose> end, double margin,
-                   std::span<const HitPush> push, Workers& workers) {
+                   std::span<const double> push, Workers& workers) {
   require(start.size() == end.size() && start.size() >= indexOf_.size(),
           "collider: start and end must hold a pose for each body");
   for (const int t : movedTree_) moved_[itemOfTree_[t]] = false;  // of the last time

@@ -19,10 +19,9 @@ class Pairs {
   const std::vector<std::pair<BodyId, BodyId>>& ignored() const { return ignored_; }
 
   // Takes the motion of all items over, and drops pairs that parted. `push` [m], by BodyId or
-  // empty: of how much further a hit may take a body, towards what does not move. False: there are
-  // no others, either.
+  // empty: how much further hits may take a body. False: there are no others, either.
   bool update(std::span<const Pose> start, std::span<const Pose> end, double margin,
-              std::span<const HitPush> push, Workers& workers);
+              std::span<const double> push, Workers& workers);
   // Then the tree of bounds, while pairs that stay may be looked at.
   void updateTree();
   // Then the others: the list holds every pair whose surfaces come within `margin` of each other
@@ -62,7 +61,7 @@ class Pairs {
   template <class F>
   void forEachTaken(Workers& workers, F&& f) const;
   bool takeMotions(std::span<const Pose> start, std::span<const Pose> end,
-                   std::span<const HitPush> push, Workers& workers);
+                   std::span<const double> push, Workers& workers);
   bool takeBounds(int item, double margin, bool all);
   bool bothRest(const Watch& watch) const { return items_[watch.a].rests && items_[watch.b].rests; }
   bool wanted(const Item& p, const Item& q) const;

@@ -18,7 +18,7 @@ namespace physics::collision {
 struct alignas(64) Item {
   double travel = 0;  // length of the way of its points so far, at most [m]
   double turn = 0;    // the furthest that turning moves a point of the core in this step [m]
-  HitPush push;       // how much further hits may take it in this step [m]
+  double push = 0;    // how much further hits may take it in this step [m]
   Vec3 move = Vec3::Zero();
   BodyId body = 0;
   bool movable = false;

@@ -10,7 +10,7 @@ namespace physics {
 
 namespace {
 
-std::span<const Found> findContacts(Model& w, std::span<const HitPush> push = {}) {
+std::span<const Found> findContacts(Model& w, std::span<const double> push = {}) {
   return w.collider.look(w.bodies.pose, w.ahead, w.settings.contact->margin, push, w.workers);
 }
 
@@ -72,7 +72,7 @@ bool SmallSteps::Impl::findPushes(Model& w) {
   if (!some) return false;
   for (std::size_t i = 0; i < pushed.size(); ++i) {
     const int articulation = articulationOf[i];
-    push[i] = {pushed[i].norm(), articulation >= 0 ? flung[articulation] : 0};
+    push[i] = std::max(pushed[i].norm(), articulation >= 0 ? flung[articulation] : 0);
   }
   return true;
 }

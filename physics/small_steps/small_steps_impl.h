@@ -273,7 +273,7 @@ struct SmallSteps::Impl {
   std::vector<Vec3> meanSpins;  // by body: what turns arms back [rad/s]
   std::vector<double> radius, thickness;  // by body, of its shape
   std::vector<Vec3> pushed;               // by body: what hits add to its way in this step [m]
-  std::vector<HitPush> push;              // and how far that is
+  std::vector<double> push;               // and how far that is
   std::vector<double> flung;              // by articulation: how far hits may fling its bodies [m]
   std::vector<char> sliding;              // by contact: far in this step; empty: none does
   enum class Held : char { kNot, kJoined, kTouching };  // by joints or points; by contacts

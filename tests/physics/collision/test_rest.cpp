@@ -209,8 +209,8 @@ TEST(ColliderRest, FourPointsSpanAtLeastHalfOfWhatTouches) {
     std::vector<collision::Spot> spots;
     for (const double angle : angles) {
       const double x = std::cos(angle), y = flat * std::sin(angle);
-      spots.push_back(
-          {x * std::cos(turn) - y * std::sin(turn), x * std::sin(turn) + y * std::cos(turn), 0, 0});
+      spots.push_back({x * std::cos(turn) - y * std::sin(turn),
+                       x * std::sin(turn) + y * std::cos(turn), 0, 0, 0});
     }
     collision::Choice chosen = collision::choose(spots, {.keep = 1, .tie = 1e-6, .clearly = 1});
     chosen.sort([](int i) { return i; });
@@ -227,7 +227,7 @@ TEST(ColliderRest, ACornerThatWasLeantOnStays) {
   std::vector<collision::Spot> spots;
   for (std::uint32_t k = 0; k < 8; ++k) {
     const double angle = 0.1 + k * std::numbers::pi / 4;
-    spots.push_back({std::cos(angle), std::sin(angle), 0, 100 + k});
+    spots.push_back({std::cos(angle), std::sin(angle), 0, 0, 100 + k});
   }
   std::vector<std::uint32_t> before;
   const auto chosen = [&] {
@@ -254,6 +254,38 @@ TEST(ColliderRest, ACornerThatWasLeantOnStays) {
   EXPECT_EQ(chosen(), leaning);
   before = {100, 101, 102, 103};  // on one side: they span less than half
   EXPECT_EQ(chosen(), level);
+}
+
+// Cubes over each other at 45 degrees: eight corners, four of which span the most. The one that the
+// step turns in the furthest is one of those that are kept, whichever it is: else what falls on it
+// would go in as far before it is seen.
+TEST(ColliderRest, TheCornerThatTurnsInIsKept) {
+  const double half = 0.5, cut = half * (std::sqrt(2.0) - 1);
+  for (int direction = 0; direction < 32; ++direction) {
+    const double angle = 0.05 + direction * std::numbers::pi / 16;
+    const Vec3 axis(std::cos(angle), 0, std::sin(angle));
+    for (const bool upperTurns : {true, false}) {
+      Collider collider;
+      collider.add(0, Box{Vec3(1, 1, 1)}, true);
+      collider.add(1, Box{Vec3(1, 1, 1)}, true);
+      const std::vector<Pose> start = {{Vec3::Zero(), kUpright},
+                                       {Vec3(0, 1.02, 0), turned(Vec3::UnitY(), 45)}};
+      std::vector<Pose> end = start;
+      Quat& turns = end[upperTurns].q;
+      turns = exponential(0.06 * axis) * turns;
+      const auto manifolds = collider.find(start, end, 0.04);
+      ASSERT_EQ(manifolds.size(), 1u);
+      const double kept = smallestGap(manifolds[0], end);
+      double lowest = 1;  // of all eight, at first order of the turn
+      for (const double x : {-half, -cut, cut, half}) {
+        for (const double z : {-half, -cut, cut, half}) {
+          if (std::abs(x) == std::abs(z)) continue;
+          lowest = std::min(lowest, 0.02 - std::abs(0.06 * axis.cross(Vec3(x, 0, z)).y()));
+        }
+      }
+      EXPECT_NEAR(kept, lowest, 3e-3) << direction << ' ' << upperTurns;
+    }
+  }
 }
 
 // Its bounds were taken with all others at first; they are not of those that move now.
