@@ -314,13 +314,13 @@ double SmallSteps::Impl::errorOfOneRow(const Model& w, const Trial& trial) const
 }
 
 // What moves by less than a step may err by errs by less, whatever its substeps; and where one row
-// errs by no more, further ones are not needed. Contacts are to stand where they touch, or the
-// row's substeps tell how deep they are: unless they carry next to nothing.
+// errs by less than contacts know, further ones tell nothing. Contacts are to stand where they
+// touch, or the row's substeps tell how deep they are: unless they carry next to nothing.
 bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
   if (trial.needsMore) return false;
   const Batch& batch = batches[trial.batch];
-  const double errs = std::min(oneRowErrs[batch.bodies.front()], wayOf(w, trial));
-  if (!(errs <= trial.allowed)) return false;
+  const bool isExact = oneRowErrs[batch.bodies.front()] <= kKnown;
+  if (!isExact && !(wayOf(w, trial) <= trial.allowed)) return false;
   const auto stands = [&](int contact) {
     const KeptContact& c = contacts[contact];
     if (c.isHeld()) return true;
@@ -466,7 +466,7 @@ void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepRep
   }
   for (int first = 1, last = columns; !group.empty(); first = ++last) {
     Batch& batch = lanesFor(w, group);
-    batch.isLost = group[0]->isLost;
+    batch.isLost = group[0]->isLost || group[0]->isRough;
     // So that rows are told from each other.
     batch.closes = columns > 1 && !batch.isMixed() && !group[0]->isRough;
     closings.resize(group.size());
@@ -541,8 +541,10 @@ bool SmallSteps::Impl::isDone(Model& w, Trial& trial) {
 bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
   StepChoice& choice = choices[batches[trial.batch].bodies.front()];
   if (trial.isOneRow) {
+    const double way = wayOf(w, trial);
     trial.oneRowErrs = errorOfOneRow(w, trial);
-    trial.error = std::min(trial.oneRowErrs, wayOf(w, trial));
+    const bool isExact = trial.oneRowErrs <= kKnown;
+    trial.error = isExact ? std::min(trial.oneRowErrs, way) : way;
     trial.isOneRow = trial.error <= trial.allowed;
     trial.needsMore = !trial.isOneRow;
   } else if (trial.isLost) {

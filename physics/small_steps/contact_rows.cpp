@@ -124,7 +124,7 @@ void placeLane(const KeptContact& c, std::span<const Pose> pose, bool isWithin, 
 // Rows of a block at the present poses, for a substep of its island's.
 void SmallSteps::Impl::fill(const Model& w, const Batch& batch, ContactBlock& block) const {
   const Bodies& b = w.bodies;
-  const bool isWithin = stepsAccurately(w, batch);
+  const bool isAsked = stepsAccurately(w, batch), isWithin = isAsked && !batch.isLost;
   for (int l = 0; l < ContactBlock::kLanes; ++l) {
     if (block.contact[l] < 0) continue;  // as it was laid out
     const KeptContact& c = contacts[block.contact[l]];
@@ -136,7 +136,7 @@ void SmallSteps::Impl::fill(const Model& w, const Batch& batch, ContactBlock& bl
     block.staticFriction[l] = static_cast<float>(c.friction.staticCoefficient);
     block.dynamicFriction[l] = static_cast<float>(c.friction.dynamicCoefficient);
     placeLane(c, b.pose, isWithin, block, l);
-    fillLoads(c, h, isWithin, block, l);
+    fillLoads(c, h, isAsked, block, l);
   }
 }
 
