@@ -99,20 +99,15 @@ class Spots {
   const Limits& limits_;
 };
 
-int deepestOf(std::span<const Spot> spots, double Spot::*gap) {
+// The deepest spot, where it is clearly deeper than those chosen: of four it takes the place of the
+// one nearest to it, but not that of `stays`. Returned: it.
+int insistOnDeepest(std::span<const Spot> spots, double Spot::*gap, int stays, double clearly,
+                    Choice& chosen) {
   int deepest = 0;
   for (int i = 1; i < static_cast<int>(spots.size()); ++i) {
     if (spots[i].*gap < spots[deepest].*gap) deepest = i;
   }
-  return deepest;
-}
-
-// The deepest spot, where it is clearly deeper than those chosen: of four it takes the place of the
-// one nearest to it, but not that of `stays`.
-void insistOnDeepest(std::span<const Spot> spots, double Spot::*gap, int stays, double clearly,
-                     Choice& chosen) {
-  const int deepest = deepestOf(spots, gap);
-  if (chosen.count == 0 || chosen.has(deepest)) return;
+  if (chosen.count == 0 || chosen.has(deepest)) return deepest;
   const Spot& deep = spots[deepest];
   int nearest = 0;
   double best = std::numeric_limits<double>::infinity(), lowest = best;
@@ -123,9 +118,13 @@ void insistOnDeepest(std::span<const Spot> spots, double Spot::*gap, int stays, 
     if (chosen.index[k] == stays) continue;
     if (du * du + dv * dv < best) best = du * du + dv * dv, nearest = k;
   }
-  if (!(deep.*gap < lowest - clearly)) return;
-  if (chosen.count < Manifold::kMaxPoints) return chosen.take(deepest);
-  chosen.index[nearest] = deepest;
+  if (!(deep.*gap < lowest - clearly)) return deepest;
+  if (chosen.count < Manifold::kMaxPoints) {
+    chosen.take(deepest);
+  } else {
+    chosen.index[nearest] = deepest;
+  }
+  return deepest;
 }
 
 }  // namespace
@@ -137,9 +136,9 @@ Choice choose(std::span<const Spot> spots, const Limits& limits) {
     const Choice stayed = all.stayed();
     if (2 * all.twiceAreaOf(stayed) > all.twiceAreaOf(chosen)) chosen = stayed;
   }
-  insistOnDeepest(spots, &Spot::gap, -1, limits.clearly, chosen);
+  const int deepest = insistOnDeepest(spots, &Spot::gap, -1, limits.clearly, chosen);
   if (limits.looksAhead(static_cast<int>(spots.size()))) {
-    insistOnDeepest(spots, &Spot::ahead, deepestOf(spots, &Spot::gap), limits.clearly, chosen);
+    insistOnDeepest(spots, &Spot::ahead, deepest, limits.clearly, chosen);
   }
   return chosen;
 }

@@ -156,7 +156,7 @@ bool SmallSteps::Impl::opensAtEnd(const Bodies& b, const Batch& batch) {
 // contacts and joints hold there: what extrapolates does not know that nothing passes a surface,
 // and opens joints by the square of what rows differ by.
 void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
-  if (trial.changes > 0 || !trial.isSmooth) return;
+  if (!trial.followsPowers()) return;
   if (!(trial.tableau.gain(trial.extent, w.settings.dt, trial.levers) > kKnown)) return;
   Batch& batch = batches[trial.batch];
   const double h = trial.whole / trial.steps;
@@ -174,7 +174,7 @@ void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
 // Whose contacts carry load is where these touch. What rows lead to is off by what they differ by,
 // and no row takes that back by powers of h: a hoop that rolls would rock, more with every step.
 void SmallSteps::Impl::putOnContacts(Model& w, const Batch& batch) {
-  constexpr int kSweeps = 4;  // what is left is for the next step's
+  constexpr int kSweeps = 4;  // what is left is for the next step's: 1, 2, 8 and 20 do the same
   for (const BodyId i : batch.bodies) takeMass(w, i);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (const int contact : batch.contacts) {
@@ -468,7 +468,7 @@ void SmallSteps::Impl::tryTogether(Model& w, std::vector<Trial*>& group, StepRep
     Batch& batch = lanesFor(w, group);
     batch.isLost = group[0]->isLost || group[0]->isRough;
     // So that rows are told from each other.
-    batch.closes = columns > 1 && !batch.isMixed() && !group[0]->isRough;
+    batch.closes = columns > 1 && !batch.isMixed() && !batch.isLost;
     closings.resize(group.size());
     for (int row = first; row <= last; ++row) {
       addRow(w, group, batch, (most * row + columns - 1) / columns, report);
@@ -549,7 +549,7 @@ bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
     trial.needsMore = !trial.isOneRow;
   } else if (trial.isLost) {
     trial.error = choice.lost();
-  } else if (trial.changes > 0 || !trial.isSmooth) {
+  } else if (!trial.followsPowers()) {
     trial.error =
         std::max(trial.error, trial.tableau.gain(trial.extent, w.settings.dt, trial.levers));
   } else if (trial.isRough) {

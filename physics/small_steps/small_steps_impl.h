@@ -168,6 +168,7 @@ struct SmallSteps::Trial {
   double allowed = 0, extent = 0, error = 0, coarser = 0;  // coarser: by a column less
   int places = 0, changes = 0;  // bodies that err by too much; contacts that its last row changed
   bool isSmooth = true;         // in all rows contacts touch where they did
+  bool followsPowers() const { return changes == 0 && isSmooth; }  // of h, does what it errs by
   int flights = 0;
   bool isOneRow = false, needsMore = false;  // it is tried by one row; that did not do
   double oneRowErrs = 0;                     // by what is known of it; infinite: nothing is
