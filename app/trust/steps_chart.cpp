@@ -31,14 +31,15 @@ StepsChart::StepsChart(const scenes::Simulation& simulation)
 // During the step to the next frame.
 void StepsChart::take(const physics::IslandSteps& told) {
   Told& frame = islands_[told.first][simulation_.frame() + 1];
-  frame.time += told.time;
+  const double least = told.steps.least;
+  if (least > 0) frame.shortest = frame.shortest > 0 ? std::min(frame.shortest, least) : least;
   frame.accepted += told.steps.accepted;
   frame.rejected += told.steps.rejected;
 }
 
 void archive(physics::Archive& a, StepsChart::Told& told) {
-  auto& [time, accepted, rejected] = told;
-  a(time, accepted, rejected);
+  auto& [shortest, accepted, rejected] = told;
+  a(shortest, accepted, rejected);
 }
 
 void StepsChart::archive(physics::Archive& a) { a(islands_); }
@@ -54,8 +55,9 @@ void StepsChart::addIslands(render::Chart& chart) const {
                              colourOf(static_cast<int>(chart.curves.size()))};
     int before = -1;
     for (const auto& [frame, told] : frames) {
+      if (!(told.shortest > 0)) continue;
       if (before >= 0 && frame > before + 1) curve.points.push_back({timeOf(frame), NAN});
-      curve.points.push_back({timeOf(frame), told.mean()});
+      curve.points.push_back({timeOf(frame), told.shortest});
       before = frame;
     }
     chart.curves.push_back(std::move(curve));
@@ -66,9 +68,11 @@ void StepsChart::addEnds(render::Chart& chart) const {
   std::map<int, std::pair<double, double>> ends;  // of a frame: the shortest, the longest
   for (const auto& [first, frames] : islands_) {
     for (const auto& [frame, told] : frames) {
-      auto& [least, most] = ends.try_emplace(frame, told.mean(), told.mean()).first->second;
-      least = std::min(least, told.mean());
-      most = std::max(most, told.mean());
+      if (!(told.shortest > 0)) continue;
+      const std::pair<double, double> one = {told.shortest, told.shortest};
+      auto& [least, most] = ends.try_emplace(frame, one).first->second;
+      least = std::min(least, told.shortest);
+      most = std::max(most, told.shortest);
     }
   }
   render::ChartCurve longest{"longest of all islands", {}, colourOf(1)};
@@ -84,7 +88,7 @@ void StepsChart::addEnds(render::Chart& chart) const {
 render::Chart StepsChart::steps() const {
   constexpr std::size_t kFew = 6;
   render::Chart chart;
-  chart.y = {"mean step in a frame [s]", true, {}, {}};
+  chart.y = {"shortest step in a frame [s]", true, {}, {}};
   if (islands_.size() <= kFew) {
     addIslands(chart);
   } else {

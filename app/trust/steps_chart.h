@@ -1,7 +1,6 @@
 // The steps that islands choose by the accuracy, over time.
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <vector>
@@ -23,16 +22,16 @@ class StepsChart {
   explicit StepsChart(const scenes::Simulation& simulation);
   StepsChart(const StepsChart&) = delete;
 
-  // An island by an island where they are few, else the shortest and the longest; below, how many
-  // steps all together took, and how many were rejected.
+  // The shortest step of every frame, island by island where they are few, else of that island
+  // whose is shortest and of that whose is longest; below, how many steps all together took, and
+  // how many were rejected.
   void write(const std::filesystem::path& file) const;
   void archive(physics::Archive& a);  // of what it has heard so far
 
  private:
-  struct Told {       // in one frame
-    double time = 0;  // that it advanced by [s]
+  struct Told {           // in one frame
+    double shortest = 0;  // of its steps [s]; 0: it made none
     int accepted = 0, rejected = 0;
-    double mean() const { return time / std::max(accepted, 1); }  // what flies does so in one go
   };
   friend void archive(physics::Archive& a, Told& told);
   using Frames = std::map<int, Told>;
