@@ -478,11 +478,12 @@ struct SmallSteps::Impl {
   void weighMotion(const Model& w, const Batch& batch);
   struct Weighed {  // a contact, of what its island is weighed by
     BodyId root = kWorldBody;
-    double change = 0, changeBefore = 0, energy = 0, way = 0, seen = 0, sag = 0, drawn = 0,
+    double change = 0, changeBefore = 0, motion = 0, way = 0, seen = 0, sag = 0, drawn = 0,
            carried = 0;
   };
   std::vector<std::array<Weighed, ContactBlock::kLanes>> weighed;  // scratch, by block
   Weighed weigh(const Model& w, const Batch& batch, const ContactBlock& block, int l) const;
+  static double mayChange(const Batch& batch);
   void weighContacts(Model& w, const Batch& batch);
   bool asksAtOnce(const Model& w, const Batch& batch, BodyId root) const;
   void askJoints(const Model& w, const Batch& batch);
