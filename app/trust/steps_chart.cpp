@@ -8,6 +8,7 @@
 
 #include "app/trust/trust_chart.h"
 #include "physics/base/archive.h"
+#include "scenes/archive.h"
 #include "scenes/view/palette.h"
 
 namespace app {
@@ -30,16 +31,7 @@ StepsChart::StepsChart(const scenes::Simulation& simulation)
 
 // During the step to the next frame.
 void StepsChart::take(const physics::IslandSteps& told) {
-  Told& frame = islands_[told.first][simulation_.frame() + 1];
-  const double least = told.steps.least;
-  if (least > 0) frame.shortest = frame.shortest > 0 ? std::min(frame.shortest, least) : least;
-  frame.accepted += told.steps.accepted;
-  frame.rejected += told.steps.rejected;
-}
-
-void archive(physics::Archive& a, StepsChart::Told& told) {
-  auto& [shortest, accepted, rejected] = told;
-  a(shortest, accepted, rejected);
+  add(told.steps, islands_[told.first][simulation_.frame() + 1]);
 }
 
 void StepsChart::archive(physics::Archive& a) { a(islands_); }
@@ -55,9 +47,9 @@ void StepsChart::addIslands(render::Chart& chart) const {
                              colourOf(static_cast<int>(chart.curves.size()))};
     int before = -1;
     for (const auto& [frame, told] : frames) {
-      if (!(told.shortest > 0)) continue;
+      if (!(told.least > 0)) continue;
       if (before >= 0 && frame > before + 1) curve.points.push_back({timeOf(frame), NAN});
-      curve.points.push_back({timeOf(frame), told.shortest});
+      curve.points.push_back({timeOf(frame), told.least});
       before = frame;
     }
     chart.curves.push_back(std::move(curve));
@@ -68,11 +60,10 @@ void StepsChart::addEnds(render::Chart& chart) const {
   std::map<int, std::pair<double, double>> ends;  // of a frame: the shortest, the longest
   for (const auto& [first, frames] : islands_) {
     for (const auto& [frame, told] : frames) {
-      if (!(told.shortest > 0)) continue;
-      const std::pair<double, double> one = {told.shortest, told.shortest};
-      auto& [least, most] = ends.try_emplace(frame, one).first->second;
-      least = std::min(least, told.shortest);
-      most = std::max(most, told.shortest);
+      if (!(told.least > 0)) continue;
+      auto& [least, most] = ends.try_emplace(frame, told.least, told.least).first->second;
+      least = std::min(least, told.least);
+      most = std::max(most, told.least);
     }
   }
   render::ChartCurve longest{"longest of all islands", {}, colourOf(1)};
@@ -102,12 +93,11 @@ render::Chart StepsChart::steps() const {
 }
 
 render::Chart StepsChart::counts() const {
-  std::map<int, Told> all;
+  Frames all;
   for (int frame = 1; frame <= simulation_.frame(); ++frame) all[frame];
   for (const auto& [first, frames] : islands_) {
     for (const auto& [frame, told] : frames) {
-      all[frame].accepted += told.accepted;
-      all[frame].rejected += told.rejected;
+      add(told, all[frame]);
     }
   }
   render::ChartCurve taken{"taken", {}, colourOf(0)}, rejected{"rejected", {}, colourOf(5)};

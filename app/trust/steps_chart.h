@@ -29,12 +29,7 @@ class StepsChart {
   void archive(physics::Archive& a);  // of what it has heard so far
 
  private:
-  struct Told {           // in one frame
-    double shortest = 0;  // of its steps [s]; 0: it made none
-    int accepted = 0, rejected = 0;
-  };
-  friend void archive(physics::Archive& a, Told& told);
-  using Frames = std::map<int, Told>;
+  using Frames = std::map<int, physics::AccuracyReport>;
 
   void take(const physics::IslandSteps& told);
   double timeOf(int frame) const;

@@ -1,6 +1,7 @@
 // What a World tells about a step and about its constraints.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -36,6 +37,14 @@ struct AccuracyReport {
   double least = 0;                // the shortest [s]
   double estimate = 0;             // of the error of this step, relative; the largest of an island
 };
+// What islands, or frames, tell together.
+inline void add(const AccuracyReport& of, AccuracyReport& to) {
+  to.accepted += of.accepted;
+  to.rejected += of.rejected;
+  to.order = std::max(to.order, of.order);
+  to.least = to.least > 0 && of.least > 0 ? std::min(to.least, of.least) : to.least + of.least;
+  to.estimate = std::max(to.estimate, of.estimate);
+}
 
 // What a step did, and what went wrong in it.
 struct StepReport {

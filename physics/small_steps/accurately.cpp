@@ -14,14 +14,6 @@ Surroundings surroundingsOf(Model& w, double time) {
 
 }  // namespace
 
-void add(const AccuracyReport& of, AccuracyReport& to) {
-  to.accepted += of.accepted;
-  to.rejected += of.rejected;
-  to.order = std::max(to.order, of.order);
-  to.least = to.least > 0 && of.least > 0 ? std::min(to.least, of.least) : to.least + of.least;
-  to.estimate = std::max(to.estimate, of.estimate);
-}
-
 // `rows`: what joins and pushes, by first body of its island.
 void SmallSteps::Impl::learnAccurate(Model& w, const std::vector<std::vector<JointRef>>& rows) {
   accurate.clear();

@@ -233,8 +233,8 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch) {
 bool SmallSteps::Impl::asksAtOnce(const Model& w, const Batch& batch, BodyId root) const {
   if (learning || batch.isSoft() || !batch.softPairs.empty()) return false;
   if (batch.isAtOnce) return batch.joined == Joined::kResponds || isOverloaded(w, batch);
-  if (batch.sweeps < 2 || !uneven[root] || !(change[root] > mayChange(batch) * whole[root]))
-    return false;
+  const double most = mayChange(batch) * whole[root];
+  if (batch.sweeps < 2 || !uneven[root] || !(change[root] > most)) return false;
   const double r = change[root] / changeBefore[root], slow = 1 - std::sqrt(r);
   return !(slow > 0) || change[root] * r > slow * slow * whole[root];
 }

@@ -199,9 +199,6 @@ bool isLoad(const Model& w, const C& item) {
   return false;
 }
 
-// What islands tell together.
-void add(const AccuracyReport& of, AccuracyReport& to);
-
 struct SmallSteps::Impl {
   std::vector<KeptContact> contacts, before;  // before: scratch
   std::vector<Articulation> articulations;
