@@ -157,7 +157,8 @@ bool SmallSteps::Impl::opensAtEnd(const Bodies& b, const Batch& batch) {
 // and opens joints by the square of what rows differ by.
 void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
   if (!trial.followsPowers()) return;
-  if (!(trial.tableau.gain(trial.extent, w.settings.dt, trial.levers) > kKnown)) return;
+  const double gain = trial.tableau.gain(trial.extent, w.settings.dt, trial.levers);
+  if (!(gain > kKnown)) return;
   Batch& batch = batches[trial.batch];
   const double h = trial.whole / trial.steps;
   reached.pose.resize(batch.bodies.size());
@@ -168,25 +169,23 @@ void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
     w.bodies.velocity[batch.bodies[k]] = reached.velocity[k];
   }
   for (const int d : batch.deformables) close(w, deformables[d], h);
-  if (batch.deformables.empty() && !batch.isMixed()) putOnContacts(w, batch);
+  if (batch.deformables.empty() && !batch.isMixed()) putOnContacts(w, batch, gain * trial.extent);
 }
 
 // Whose contacts carry load is where these touch. What rows lead to is off by what they differ by,
 // and no row takes that back by powers of h: a hoop that rolls would rock, more with every step.
-void SmallSteps::Impl::putOnContacts(Model& w, const Batch& batch) {
-  constexpr int kSweeps = 4;  // what is left is for the next step's: 1, 2, 8 and 20 do the same
+// What is further off, by `most` [m], is deep in each row, and comes out as that is let to.
+void SmallSteps::Impl::putOnContacts(Model& w, const Batch& batch, double most) {
   for (const BodyId i : batch.bodies) takeMass(w, i);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (const int contact : batch.contacts) {
-      for (int k = 0; k < contacts[contact].count; ++k) {
-        if (rowLoads[contact][k] > 0) putOn(w.bodies, contacts[contact], k);
-      }
+  for (const int contact : batch.contacts) {
+    for (int k = 0; k < contacts[contact].count; ++k) {
+      if (rowLoads[contact][k] > 0) putOn(w.bodies, contacts[contact], k, most);
     }
   }
 }
 
 // Both bodies, each as it resists a push along the normal.
-void SmallSteps::Impl::putOn(Bodies& b, const KeptContact& c, int point) const {
+void SmallSteps::Impl::putOn(Bodies& b, const KeptContact& c, int point, double most) const {
   struct Side {
     BodyId body;
     double sign;
@@ -206,7 +205,7 @@ void SmallSteps::Impl::putOn(Bodies& b, const KeptContact& c, int point) const {
     side.way = {side.sign * mass.inverse * n, side.sign * (mass.inertia * lever)};
     gives += mass.inverse + lever.dot(mass.inertia * lever);
   }
-  if (!(gives > 0)) return;
+  if (!(gives > 0) || std::abs(gap) > most) return;
   for (const Side& side : sides) {
     if (!isMovable(b, side.body)) continue;
     displace(b.pose[side.body], -gap / gives * side.way.u, -gap / gives * side.way.theta);

@@ -340,8 +340,8 @@ struct SmallSteps::Impl {
   bool opensAtEnd(const Bodies& b, const Batch& batch);
   bool goToReached(Model& w, Batch& batch, double h);
   void takeBest(Model& w, const Trial& trial);
-  void putOnContacts(Model& w, const Batch& batch);
-  void putOn(Bodies& b, const KeptContact& c, int point) const;
+  void putOnContacts(Model& w, const Batch& batch, double most);
+  void putOn(Bodies& b, const KeptContact& c, int point, double most) const;
   void goBack(Bodies& b, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch, std::size_t k);
   void run(Model& w, Batch& batch, double h, int count, StepReport& report);
