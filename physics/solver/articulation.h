@@ -196,8 +196,7 @@ class JointPack {
   bool isNoneOpen() const;
   void solveOpenVelocities();
   void solveOpenVelocities(const JointStage& stage);
-  void takeLanes(const LaneBodies& lanes);
-  void giveLanes(const LaneBodies& lanes) const;
+  JointContacts contactsOf(const LaneBodies& lanes);
   void see(const JointStage& stage, bool first);
   void seeGaps(const JointStage& stage);
   void noteSeen();
@@ -229,6 +228,7 @@ class JointPack {
   int lanes_ = 0;
   std::array<Articulation*, W> of_{};
   std::vector<BodyId> ids_;  // of each lane, body after body
+  std::vector<int> slots_;   // theirs in the lanes of contacts; scratch
   std::shared_ptr<const JointTopology> topology_;
   std::vector<JointBody<W>> bodies_;
   std::vector<JointLanes<W>> rows_;

@@ -35,9 +35,12 @@ struct alignas(64) LaneMotion {
 // nothing turns the body the root is kUnturned: its turns are seen, and what it is given is lost.
 struct alignas(32) LaneMass {
   static constexpr float kUnturned = 1.f / (1 << 30) / (1 << 10);  // squared a number still, 1e-24
-  float inverse = 0;
   float root[6] = {};
-  float pad = 0;
+  float inverse = 0, pad = 0;
+};
+// What a lane moved by when its body last knew of it.
+struct alignas(32) LaneStart {
+  float u[3] = {}, turn[3] = {}, pad[2] = {};
 };
 
 struct Softness {

@@ -13,9 +13,9 @@ struct Roots {
 };
 inline Roots gatherMass(const int (&slot)[8], const LaneMass* masses) {
   Lanes rows[8];
-  for (int l = 0; l < 8; ++l) rows[l] = load(&masses[slot[l]].inverse);
+  for (int l = 0; l < 8; ++l) rows[l] = load(masses[slot[l]].root);
   transpose(rows);
-  return {rows[0], {rows[1], rows[2], rows[3], rows[4], rows[5], rows[6]}};
+  return {rows[6], {rows[0], rows[1], rows[2], rows[3], rows[4], rows[5]}};
 }
 
 // root^T v

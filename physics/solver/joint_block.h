@@ -3,6 +3,8 @@
 // code with anything else.
 #pragma once
 
+#include "physics/solver/contact_block.h"
+
 namespace physics {
 
 // Kinds that the kernels evaluate themselves, and what is fixed of one, in body frames:
@@ -130,6 +132,17 @@ struct JointKept {
   Num<W> stale;
 };
 
+// What contacts move the bodies by, where they take turns with joints: of each lane, body after
+// body, its slot, and how many lanes there are.
+struct JointContacts {
+  const int* slots;
+  LaneMotion* motions;
+  LaneStart* before;
+  const LaneMass* masses;
+  const char* moves;  // by body
+  int lanes;
+};
+
 template <int W>
 struct JointKernels {
   using System = JointView<W>;
@@ -163,6 +176,9 @@ struct JointKernels {
   // is reached: `open` is 0.
   void (*follow)(const System&);
   void (*apply)(const System&);  // lambda += right, u += M^-1 J^T right
+  // u and theta take what contacts have given since they last knew, and tell them what they are.
+  void (*takeContacts)(const System&, const JointContacts&);
+  void (*tellContacts)(const System&, const JointContacts&);
 };
 
 template <int W>

@@ -4,6 +4,7 @@
 #include "physics/solver/joint_factor.h"
 #include "physics/solver/joint_limits.h"
 #include "physics/solver/joint_tail.h"
+#include "physics/solver/lane_records.h"
 #include "physics/solver/turn_lanes.h"
 
 namespace physics {
@@ -291,12 +292,79 @@ void apply(const Of<N>& s) {
   }
 }
 
+// The records of the lanes of body i.
+template <int W>
+void motionsOf(const JointContacts& of, int i, float* (&motions)[W], float* (&before)[W]) {
+  for (int l = 0; l < W; ++l) {
+    motions[l] = of.motions[of.slots[i * W + l]].u;
+    before[l] = of.before[of.slots[i * W + l]].u;
+  }
+}
+template <class N>
+void loadRoots(const JointContacts& of, int i, N (&root)[6]) {
+  const float* roots[N::kWidth];
+  for (int l = 0; l < N::kWidth; ++l) roots[l] = of.masses[of.slots[i * N::kWidth + l]].root;
+  loadSix(roots, root);
+}
+
+template <class N>
+void takeContacts(const Of<N>& s, const JointContacts& of) {
+  constexpr int kWidth = N::kWidth;
+  for (int i = 0; i < s.bodyCount; ++i) {
+    if (!of.moves[i]) continue;
+    float *motions[kWidth], *before[kWidth];
+    motionsOf(of, i, motions, before);
+    N now[6], then[6], root[6];
+    loadSix(motions, now);
+    loadSix(before, then);
+    loadRoots(of, i, root);
+    for (int l = 0; l < of.lanes; ++l) __builtin_memcpy(before[l], motions[l], sizeof(LaneStart));
+    for (int k = 0; k < 6; ++k) now[k] = now[k] - then[k];
+    auto& body = s.bodies[i];
+    store3<N>(body.u, load3<N>(body.u) + Triple<N>{now[0], now[1], now[2]});
+    const Triple<N> theta = load3<N>(body.theta);
+    const Triple<N> turned =
+        theta + Triple<N>{root[0] * now[3], root[1] * now[3] + root[3] * now[4],
+                          root[2] * now[3] + root[4] * now[4] + root[5] * now[5]};
+    const N turns = load(body.inertia[0]) + load(body.inertia[1]) + load(body.inertia[2]);
+    store3<N>(body.theta,
+              {wherePositive(turns, turned.x, theta.x), wherePositive(turns, turned.y, theta.y),
+               wherePositive(turns, turned.z, theta.z)});
+  }
+}
+
+template <class N>
+void tellContacts(const Of<N>& s, const JointContacts& of) {
+  constexpr int kWidth = N::kWidth;
+  const N one = all<N>(1), zero = all<N>(0);
+  for (int i = 0; i < s.bodyCount; ++i) {
+    if (!of.moves[i]) continue;
+    float *motions[kWidth], *before[kWidth];
+    motionsOf(of, i, motions, before);
+    N root[6];
+    loadRoots(of, i, root);
+    const N i00 = one / root[0], i11 = one / root[3], i22 = one / root[5];
+    const N i10 = (zero - root[1]) * i00 * i11, i21 = (zero - root[4]) * i11 * i22;
+    const N i20 = (zero - (root[2] * i00 + root[4] * i10)) * i22;
+    const auto& body = s.bodies[i];
+    const Triple<N> u = load3<N>(body.u), theta = load3<N>(body.theta);
+    const N now[6] = {u.x,
+                      u.y,
+                      u.z,
+                      i00 * theta.x,
+                      i10 * theta.x + i11 * theta.y,
+                      i20 * theta.x + i21 * theta.y + i22 * theta.z};
+    storeSix(now, motions, of.lanes);
+    storeSix(now, before, of.lanes);
+  }
+}
+
 template <class N>
 constexpr JointKernels<N::kWidth> tableOf() {
-  return {place<N>,        turnBack<N>,     seeGaps<N>,     seeLimits<N>, begin<N>,
-          chooseLimits<N>, keepCarrying<N>, stiffen<N>,     factorize<N>, restore<N>,
-          findChanged<N>,  respondAll<N>,   aimAtErrors<N>, findOpen<N>,  aimAtVelocities<N>,
-          substitute<N>,   follow<N>,       apply<N>};
+  return {place<N>,        turnBack<N>,     seeGaps<N>,     seeLimits<N>,    begin<N>,
+          chooseLimits<N>, keepCarrying<N>, stiffen<N>,     factorize<N>,    restore<N>,
+          findChanged<N>,  respondAll<N>,   aimAtErrors<N>, findOpen<N>,     aimAtVelocities<N>,
+          substitute<N>,   follow<N>,       apply<N>,       takeContacts<N>, tellContacts<N>};
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ void gatherPoses(std::span<const BodyId> ids, std::span<const Pose> pose,
 }
 
 template <int W>
-void scatterMotion(std::span<const BodyId> ids, int lanes, const std::vector<bool>& moves,
+void scatterMotion(std::span<const BodyId> ids, int lanes, std::span<const char> moves,
                    std::span<const JointBody<W>> bodies, std::span<Displacement> moved) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (int l = 0; moves[i] && l < lanes; ++l) {

@@ -442,29 +442,11 @@ void JointPack<W>::followPositions(const JointStage& stage) {
 }
 
 template <int W>
-void JointPack<W>::takeLanes(const LaneBodies& lanes) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    JointBody<W>& body = bodies_[i];
-    for (int l = 0; topology_->moves[i] && l < lanes_; ++l) {
-      const int slot = lanes.slotOf[ids_[i * W + l]];
-      if (!lanes.isChanged(slot)) continue;
-      const bool turns = body.inertia[0].v[l] + body.inertia[1].v[l] + body.inertia[2].v[l] > 0;
-      Vec3 u = read(body.u, l), theta = read(body.theta, l);
-      lanes.take(slot, u, turns ? &theta : nullptr);
-      write(body.u, l, u);
-      write(body.theta, l, theta);
-    }
-  }
-}
-
-template <int W>
-void JointPack<W>::giveLanes(const LaneBodies& lanes) const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const JointBody<W>& body = bodies_[i];
-    for (int l = 0; topology_->moves[i] && l < lanes_; ++l) {
-      lanes.give(lanes.slotOf[ids_[i * W + l]], read(body.u, l), read(body.theta, l));
-    }
-  }
+JointContacts JointPack<W>::contactsOf(const LaneBodies& lanes) {
+  slots_.resize(ids_.size());
+  for (std::size_t i = 0; i < ids_.size(); ++i) slots_[i] = lanes.slotOf[ids_[i]];
+  return {slots_.data(),       lanes.motions.data(),    lanes.before.data(),
+          lanes.masses.data(), topology_->moves.data(), lanes_};
 }
 
 template <int W>
@@ -475,10 +457,11 @@ void JointPack<W>::startTurns(const JointStage& stage, const LaneBodies& lanes) 
 
 template <int W>
 void JointPack<W>::followPositions(const LaneBodies& lanes) {
+  const JointContacts contacts = contactsOf(lanes);
   openAll();
-  takeLanes(lanes);
+  jointKernels<W>().takeContacts(view(), contacts);
   step();
-  giveLanes(lanes);
+  jointKernels<W>().tellContacts(view(), contacts);
 }
 
 template <int W>
@@ -720,10 +703,11 @@ void JointPack<W>::holdVelocities(const JointStage& stage, std::span<const doubl
 
 template <int W>
 void JointPack<W>::solveVelocities(const LaneBodies& lanes) {
+  const JointContacts contacts = contactsOf(lanes);
   openAll();
-  takeLanes(lanes);
+  jointKernels<W>().takeContacts(view(), contacts);
   solveOpenVelocities();
-  giveLanes(lanes);
+  jointKernels<W>().tellContacts(view(), contacts);
 }
 
 template <int W>

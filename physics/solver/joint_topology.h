@@ -17,7 +17,7 @@ struct JointTopology {
   std::vector<int> signature;  // rows, their kinds and bodies: equal where topologies are
   std::vector<int> order;      // of elimination: which of the rows as they were given
   int bodyCount = 0;
-  std::vector<bool> moves;   // by body
+  std::vector<char> moves;   // by body
   std::vector<int> others;   // rows that the kernels do not evaluate
   std::vector<int> bounded;  // rows that may have bounds, but for those of the tail
   std::vector<JointShape> shapes;

@@ -20,11 +20,6 @@ struct LaneInverse {
   double entries[6] = {};
 };
 
-// What a lane moved by when its body last knew of it.
-struct LaneStart {
-  float u[3] = {}, turn[3] = {};
-};
-
 // The lanes of contacts, by slot; and the slots, by body.
 struct LaneBodies {
   std::span<const int> slotOf;

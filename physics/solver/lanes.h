@@ -8,6 +8,8 @@
 
 #ifdef __AVX512F__
 #include "physics/solver/lanes_of_two.h"
+#else
+#include "physics/solver/transpose.h"
 #endif
 
 namespace physics {
@@ -39,20 +41,11 @@ inline unsigned positive(Lanes a) {
   return static_cast<unsigned>(
       _mm256_movemask_ps(_mm256_cmp_ps(a.v, _mm256_setzero_ps(), _CMP_GT_OQ)));
 }
-// r[i][k] <-> r[k][i]
 inline void transpose(Lanes* r) {
-  const __m256 a = _mm256_unpacklo_ps(r[0].v, r[1].v), b = _mm256_unpackhi_ps(r[0].v, r[1].v);
-  const __m256 c = _mm256_unpacklo_ps(r[2].v, r[3].v), d = _mm256_unpackhi_ps(r[2].v, r[3].v);
-  const __m256 e = _mm256_unpacklo_ps(r[4].v, r[5].v), f = _mm256_unpackhi_ps(r[4].v, r[5].v);
-  const __m256 g = _mm256_unpacklo_ps(r[6].v, r[7].v), h = _mm256_unpackhi_ps(r[6].v, r[7].v);
-  const __m256 ac = _mm256_shuffle_ps(a, c, 0x44), ca = _mm256_shuffle_ps(a, c, 0xEE);
-  const __m256 bd = _mm256_shuffle_ps(b, d, 0x44), db = _mm256_shuffle_ps(b, d, 0xEE);
-  const __m256 eg = _mm256_shuffle_ps(e, g, 0x44), ge = _mm256_shuffle_ps(e, g, 0xEE);
-  const __m256 fh = _mm256_shuffle_ps(f, h, 0x44), hf = _mm256_shuffle_ps(f, h, 0xEE);
-  r[0].v = _mm256_permute2f128_ps(ac, eg, 0x20), r[1].v = _mm256_permute2f128_ps(ca, ge, 0x20);
-  r[2].v = _mm256_permute2f128_ps(bd, fh, 0x20), r[3].v = _mm256_permute2f128_ps(db, hf, 0x20);
-  r[4].v = _mm256_permute2f128_ps(ac, eg, 0x31), r[5].v = _mm256_permute2f128_ps(ca, ge, 0x31);
-  r[6].v = _mm256_permute2f128_ps(bd, fh, 0x31), r[7].v = _mm256_permute2f128_ps(db, hf, 0x31);
+  __m256 rows[8];
+  for (int l = 0; l < 8; ++l) rows[l] = r[l].v;
+  transpose(rows);
+  for (int l = 0; l < 8; ++l) r[l].v = rows[l];
 }
 
 #else
@@ -97,11 +90,13 @@ inline unsigned positive(Lanes a) {
   const int low = _mm_movemask_ps(_mm_cmpgt_ps(a.low, zero));
   return static_cast<unsigned>(low | _mm_movemask_ps(_mm_cmpgt_ps(a.high, zero)) << 4);
 }
-inline void transpose(__m128& a, __m128& b, __m128& c, __m128& d) { _MM_TRANSPOSE4_PS(a, b, c, d); }
 inline void transpose(Lanes* r) {
   for (int i = 0; i < 8; i += 4) {
-    transpose(r[i].low, r[i + 1].low, r[i + 2].low, r[i + 3].low);
-    transpose(r[i].high, r[i + 1].high, r[i + 2].high, r[i + 3].high);
+    __m128 low[4], high[4];
+    for (int l = 0; l < 4; ++l) low[l] = r[i + l].low, high[l] = r[i + l].high;
+    transpose(low);
+    transpose(high);
+    for (int l = 0; l < 4; ++l) r[i + l].low = low[l], r[i + l].high = high[l];
   }
   for (int i = 0; i < 4; ++i) {
     const __m128 kept = r[i].high;

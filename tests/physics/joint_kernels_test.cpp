@@ -62,7 +62,14 @@ struct Memory {
   std::vector<int> places{0, 0, 0, 0};
   int tailCount = 0;
   bool isFactored = false;
+  std::vector<int> slots = std::vector<int>(3 * W);
+  std::vector<LaneMotion> motions = std::vector<LaneMotion>(3 * W);
+  std::vector<LaneStart> before = std::vector<LaneStart>(3 * W);
+  std::vector<LaneMass> masses = std::vector<LaneMass>(3 * W);
 
+  JointContacts contacts() {
+    return {slots.data(), motions.data(), before.data(), masses.data(), topology->moves.data(), W};
+  }
   JointView<W> view() {
     return {bodies.data(),
             rows.data(),
@@ -106,6 +113,18 @@ struct Memory {
       for (Num<W>& fixed : row.fixed) fixed.v[l] = next();
       row.free.v[l] = 1;
     }
+    for (int i = 0; i < 3; ++i) {  // slots the other way round
+      const int slot = slots[i * W + l] = 3 * W - 1 - (i * W + l);
+      for (int k = 0; k < 3; ++k) {
+        before[slot].u[k] = static_cast<float>(0.01 * next());
+        before[slot].turn[k] = static_cast<float>(0.01 * next());
+        motions[slot].u[k] = static_cast<float>(0.01 * next());
+        motions[slot].turn[k] = static_cast<float>(0.01 * next());
+      }
+      Mat3 root = Mat3::Zero();
+      root << 1 + next(), 0, 0, next(), 1 + next(), 0, next(), next(), 1 + next();
+      masses[slot] = laneMassOf({1, root * root.transpose()});
+    }
   }
   void work(const JointKernels<W>& kernels) {
     const JointView<W> s = view();
@@ -116,9 +135,11 @@ struct Memory {
     kernels.begin(s);
     kernels.chooseLimits(s);
     kernels.factorize(s);
+    kernels.takeContacts(s, contacts());
     kernels.aimAtErrors(s);
     kernels.substitute(s);
     kernels.apply(s);
+    kernels.tellContacts(s, contacts());
     kernels.seeLimits(s, false);
     bool changed[W];
     kernels.keepCarrying(s, changed);
@@ -157,6 +178,7 @@ TEST(JointKernels, GiveTheSameBytesInAnyRegisters) {
   halves.work(kJointKernelsSse2Of4);
   EXPECT_GT(std::abs(wide.rows[0].lambda[0].v[0]), 1e-6);  // there was something to solve
   EXPECT_EQ(std::memcmp(wide.bodies.data(), halves.bodies.data(), 3 * sizeof(JointBody<4>)), 0);
+  EXPECT_EQ(std::memcmp(wide.motions.data(), halves.motions.data(), 12 * sizeof(LaneMotion)), 0);
 }
 
 template <int W>
@@ -178,6 +200,50 @@ void expectBytesOfOne() {
       }
     }
   }
+}
+
+// As one body after the other would be told, physics/solver/lane_mass.h.
+template <int W>
+void expectContactsAsOneByOne() {
+  Memory<W> memory;
+  for (int l = 0; l < W; ++l) memory.fill(l, l);
+  for (Num<W>& inertia : memory.bodies[1].inertia) inertia.v[W - 1] = 0;  // nothing turns that one
+  Memory<W> one = memory;
+  std::vector<LaneInverse> inverses;
+  for (const LaneMass& mass : one.masses) inverses.push_back(inverseOf(mass));
+  const LaneBodies lanes = {one.slots, one.motions, one.before, one.masses, inverses};
+  const JointKernels<W>& kernels = jointKernels<W>();
+  kernels.takeContacts(memory.view(), memory.contacts());
+  for (std::size_t i = 0; i < one.slots.size(); ++i) {
+    JointBody<W>& body = one.bodies[i / W];
+    const int l = static_cast<int>(i % W);
+    if (!one.topology->moves[i / W]) continue;
+    Vec3 u = read(body.u, l), theta = read(body.theta, l);
+    lanes.take(one.slots[i], u, body.inertia[0].v[l] > 0 ? &theta : nullptr);
+    write(body.u, l, u);
+    write(body.theta, l, theta);
+  }
+  const std::size_t size = one.bodies.size() * sizeof(JointBody<W>);
+  EXPECT_EQ(std::memcmp(memory.bodies.data(), one.bodies.data(), size), 0);
+  kernels.tellContacts(memory.view(), memory.contacts());
+  for (std::size_t i = 0; i < one.slots.size(); ++i) {
+    const JointBody<W>& body = one.bodies[i / W];
+    const int l = static_cast<int>(i % W), slot = one.slots[i];
+    if (!one.topology->moves[i / W]) continue;
+    lanes.give(slot, read(body.u, l), read(body.theta, l));
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(memory.motions[slot].u[k], one.motions[slot].u[k]) << i;
+      EXPECT_EQ(memory.motions[slot].turn[k], one.motions[slot].turn[k]) << i;
+    }
+    EXPECT_FALSE((LaneBodies{memory.slots, memory.motions, memory.before, memory.masses, inverses})
+                     .isChanged(slot));
+  }
+}
+
+TEST(JointKernels, TakeWhatContactsGiveAsOneByOne) {
+  expectContactsAsOneByOne<1>();
+  expectContactsAsOneByOne<4>();
+  if (mostJointLanes() == 8) expectContactsAsOneByOne<8>();
 }
 
 TEST(JointKernels, StiffenByWhatAllGapsOfABodyPullWith) {
