@@ -49,8 +49,15 @@ class Plotter {
         ticksX_(ticksOf(x_, kMostTicksX)),
         ticksY_(ticksOf(y_, kMostTicksY)) {}
 
-  void draw(const Pixel& from, const Pixel& to) {
-    layOut(from, to);
+  float left() const {
+    float widest = 0;
+    for (const Tick& tick : ticksY_) widest = std::max(widest, width(tick.text));
+    const float title = chart_.y.title.empty() ? 0.05f : 1.15f;
+    return (kEdge + title) * size_ + widest + (kTick + 2 * kGap) * size_;
+  }
+
+  void draw(const Pixel& from, const Pixel& to, float leftAtLeast) {
+    layOut(from, to, leftAtLeast);
     drawRules();
     for (const ChartCurve& curve : chart_.curves) drawCurve(curve);
     drawFrame();
@@ -62,16 +69,12 @@ class Plotter {
   float width(const std::string& words) const { return canvas_.widthOfMarked(words, size_); }
   float line(float share) const { return std::max(1.0f, std::round(share * size_)); }
 
-  void layOut(const Pixel& from, const Pixel& to) {
-    float widest = 0;
-    for (const Tick& tick : ticksY_) widest = std::max(widest, width(tick.text));
+  void layOut(const Pixel& from, const Pixel& to, float leftAtLeast) {
     const float last = ticksX_.empty() ? 0 : width(ticksX_.back().text) / 2;
-    from_ = {from.x() + (kEdge + 1.15f) * size_ + widest + (kTick + 2 * kGap) * size_,
-             from.y() + 0.5f * size_};
+    from_ = {from.x() + std::max(left(), leftAtLeast), from.y() + 0.5f * size_};
     to_ = {to.x() - std::max(last, 0.3f * size_) - kEdge * size_,
            to.y() - (2.15f + kTick + 2 * kGap) * size_};
     if (chart_.x.title.empty()) to_.y() += 1.1f * size_;
-    if (chart_.y.title.empty()) from_.x() -= 1.1f * size_;
     legend_ = placeLegend(canvas_, chart_, size_, from_, to_, screenCurves());
     from_.y() += legend_.above;
     for (Pixel* corner : {&from_, &to_}) *corner = corner->array().round();
@@ -198,8 +201,12 @@ class Plotter {
 }  // namespace
 
 void drawChart(Canvas& canvas, const Chart& chart, const Pixel& from, const Pixel& to,
-               float textSize) {
-  Plotter(canvas, chart, textSize).draw(from, to);
+               float textSize, float left) {
+  Plotter(canvas, chart, textSize).draw(from, to, left);
+}
+
+float leftOfFrame(Canvas& canvas, const Chart& chart, float textSize) {
+  return Plotter(canvas, chart, textSize).left();
 }
 
 }  // namespace render

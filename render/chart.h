@@ -34,7 +34,11 @@ struct Chart {
 
 // Between the two corners [px]; `textSize` is the height of a line of text [px], all else follows
 // from it. Points that are not finite, or not positive on a logarithmic axis, break their curve.
+// `left`: the frame keeps at least so far from the left corner [px].
 void drawChart(Canvas& canvas, const Chart& chart, const Pixel& from, const Pixel& to,
-               float textSize);
+               float textSize, float left = 0);
+
+// What the numbers and the title along y need there [px].
+float leftOfFrame(Canvas& canvas, const Chart& chart, float textSize);
 
 }  // namespace render

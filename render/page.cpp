@@ -54,10 +54,20 @@ std::vector<std::uint8_t> flipped(const Image& image) {
   return rows;
 }
 
+// Frames of plots that stand under each other begin under each other.
+float leftOf(const Page::Plot& plot, const Page& page, Canvas& canvas) {
+  float left = 0;
+  for (const Page::Plot& other : page.plots) {
+    if (other.from.x() != plot.from.x()) continue;
+    left = std::max(left, leftOfFrame(canvas, other.chart, other.textSize));
+  }
+  return left;
+}
+
 void drawOver(const Page& page, Canvas& canvas) {
   canvas.begin(page.width, page.height);
   for (const Page::Plot& plot : page.plots) {
-    drawChart(canvas, plot.chart, plot.from, plot.to, plot.textSize);
+    drawChart(canvas, plot.chart, plot.from, plot.to, plot.textSize, leftOf(plot, page, canvas));
   }
   for (const Page::Text& text : page.texts) {
     const float width = canvas.widthOfMarked(text.words, text.size);

@@ -85,6 +85,34 @@ TEST(Page, ChartsTakeWhatIsNotFiniteAndNoData) {
   }
 }
 
+// Left edges of the frames of all plots, the outlines [px].
+std::vector<float> leftEdges(const Page& page) {
+  std::vector<float> edges;
+  for (const Ink& ink : PagePrinter().inkOf(page)) {
+    if (ink.kind != Ink::Kind::kCurve || !ink.closed) continue;
+    edges.push_back(ink.points[0].x());
+    for (const Eigen::Vector2f& p : ink.points) edges.back() = std::min(edges.back(), p.x());
+  }
+  return edges;
+}
+
+TEST(Page, FramesOfPlotsUnderEachOtherBeginUnderEachOther) {
+  Page page = pageWithTile();
+  const auto chartTo = [](double high) {
+    return Chart{{"x", false, {}, {}}, {"y", false, {}, {}}, {{"", {{0, 0}, {1, high}}}}};
+  };
+  page.plots.push_back({{0, 0}, {200, 60}, chartTo(1), 10});
+  const std::vector<float> alone = leftEdges(page);
+  page.plots.push_back({{0, 60}, {200, 120}, chartTo(20000), 10});
+  const std::vector<float> both = leftEdges(page);
+  ASSERT_EQ(alone.size(), 1u);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0], both[1]);
+  EXPECT_GT(both[0], alone[0] + 5);
+  page.plots[1].from.x() = 20;  // not under it
+  EXPECT_EQ(leftEdges(page)[0], alone[0]);
+}
+
 TEST(Page, RefusesToHaveNoArea) {
   EXPECT_THROW(PagePrinter().print(Page{}), std::invalid_argument);
 }
