@@ -299,8 +299,7 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
   const JointStage stage = {w.kinds, w.bodies.pose, w.bodies.start, h, masses, moved};
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
-  batch.joints.prepareVelocities(stage);
-  batch.joints.solveVelocities(stage);
+  batch.joints.startVelocities(stage);
   for (const int k : batch.deformables) {
     deformables[k].prepareVelocities(w.kinds, {w.bodies.pose, w.bodies.start, h}, masses, moved);
   }

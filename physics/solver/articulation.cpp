@@ -172,8 +172,11 @@ void JointPacks::closePositions(const JointStage& stage, std::span<const Displac
   forEach([&](auto& pack) { pack.closePositions(stage, predicted); });
 }
 
-void JointPacks::prepareVelocities(const JointStage& stage) {
-  forEach([&](auto& pack) { pack.prepareVelocities(stage); });
+void JointPacks::startVelocities(const JointStage& stage) {
+  forEach([&](auto& pack) {
+    pack.prepareVelocities(stage);
+    pack.solveVelocities(stage);
+  });
 }
 
 void JointPacks::solveVelocities(const JointStage& stage) {

@@ -214,7 +214,6 @@ class JointPack {
   void giveLoads();
   void chooseFree();
   void setFree(int row, int lane, bool free);
-  void factorize();
   void factorizeStale();
   bool holdAtBounds();
   void findUsed();
@@ -234,7 +233,7 @@ class JointPack {
   std::vector<JointLanes<W>> rows_;
   std::vector<Num<W>> entries_, scaled_;  // of blocks below the diagonal
   std::vector<State> states_;             // by row
-  Num<W> open_{};
+  Num<W> open_{}, anew_{};
   std::array<bool, W> apart_{};  // where the step began, and since; or not closed in this substep
   std::array<bool, W> given_{};  // up, by closePositions
   std::vector<char> used_;
@@ -247,9 +246,8 @@ class JointPack {
   std::array<bool, W> stale_{};  // the factor is of other free rows
   bool seenSince_ = true;        // J is not that of the factor any more
   std::array<bool, W> exact_{};  // the factor is that of the velocity stage
-  std::vector<JointFactor<W>> factors_, keptFactors_;
-  std::vector<JointFactored<W>> factored_, keptFactored_;
-  std::vector<Num<W>> keptTail_, keptScaled_;
+  std::vector<JointFactor<W>> factors_;
+  std::vector<JointFactored<W>> factored_;
   std::vector<int> entryOf_;  // scratch, by row
   struct {  // where the last step of Newton's began, by row and body, and what it was off by
     std::vector<std::array<Num<W>, 3>> lambda, u, theta;
@@ -283,8 +281,8 @@ class JointPacks {
   void tell(const JointStage& stage);
   // As often as it takes until what is off before another step is kClosed.
   void closePositions(const JointStage& stage, std::span<const Displacement> predicted);
-  // Evaluates at the end of the substep; then, as often as contacts are swept:
-  void prepareVelocities(const JointStage& stage);
+  // Evaluates at the end of the substep, and solves; then, as often as contacts are swept:
+  void startVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
   // Of those alone of which `wanted`, by their first body, is more than 0.
   void solveVelocities(const JointStage& stage, std::span<const double> wanted);

@@ -117,19 +117,10 @@ struct JointView {
   const int* updates;
   const JointMeeting* meetings;
   Num<W>* open;                 // by lane: 0 where positions are as good as they get
+  const Num<W>* stale;          // by lane: 1 where the factor is to be made anew
   char* used;                   // by row: free in any lane
   int *usedBelow, *usedCounts;  // places in a column of what is used, from the column's start
   JointTail<W> tail;
-};
-
-// A factor that some lanes keep: where `stale` is 0.
-template <int W>
-struct JointKept {
-  const JointFactor<W>* factors;
-  const JointFactored<W>* factored;
-  const Num<W>*scaled, *tail;
-  int scaledCount, tailCount;
-  Num<W> stale;
 };
 
 // What contacts move the bodies by, where they take turns with joints: of each lane, body after
@@ -159,9 +150,8 @@ struct JointKernels {
   // Changed: free rows are others than the factor's, but for those of the tail, which leaves out
   // itself what is held.
   void (*keepCarrying)(const System&, bool (&changed)[W]);
-  void (*stiffen)(const System&);  // of bodies, by lambda of all that pulls
-  void (*factorize)(const System&);
-  void (*restore)(const System&, const JointKept<W>&);
+  void (*stiffen)(const System&);                          // of bodies, by lambda of all that pulls
+  void (*factorize)(const System&);                        // the lanes that are stale
   void (*findChanged)(const System&, bool (&changed)[W]);  // too much for the factor to serve
   void (*respond)(const System&);                          // M^-1 J^T alone
   void (*aimAtErrors)(const System&);  // right = -(c - left + J (u - seen) + alpha lambda)

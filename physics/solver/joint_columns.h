@@ -51,6 +51,17 @@ void storeColumn(Num<N::kWidth>* p, const Column<R, N>& column) {
   }
 }
 
+template <int R, class N>
+void storeColumnWhere(N test, Num<N::kWidth>* p, const Column<R, N>& column) {
+  if constexpr (R == 1) {
+    storeWhere(test, *p, column);
+  } else if constexpr (N::kWidth == 1) {
+    if (test.v > 0) storeThree(p->v, column.v);
+  } else {
+    storeWhere3(test, p, column);
+  }
+}
+
 // A column of A B: `a` by its columns, and of B's column the K numbers that lie kStep apart.
 template <int R, int K, int kStep, class N>
 Column<R, N> product(const Column<R, N> (&a)[K], const Num<N::kWidth>* b) {

@@ -14,9 +14,9 @@ constexpr double kRedundancy = 1e-7;
 // the next one takes the same share of it.
 constexpr double kKeptTurn = 0.1, kKeptMass = 0.2;
 
-// M^-1 J^T of the angular part, a column for each row of J.
+// M^-1 J^T of the angular part, a column for each row of J, in lanes where `test` is > 0.
 template <class N>
-void respond(const JointShape& shape, const JointLanes<N::kWidth>& row, int b,
+void respond(N test, const JointShape& shape, const JointLanes<N::kWidth>& row, int b,
              const JointBody<N::kWidth>& body, JointFactor<N::kWidth>& factor) {
   const N xx = load(body.inertia[0]), yy = load(body.inertia[1]), zz = load(body.inertia[2]);
   const N xy = load(body.inertia[3]), xz = load(body.inertia[4]), yz = load(body.inertia[5]);
@@ -24,14 +24,14 @@ void respond(const JointShape& shape, const JointLanes<N::kWidth>& row, int b,
   auto* to = factor.response[b];
   if (shape.isGap) {
     const Triple<N> a = load3<N>(row.angular[b]);
-    store3(to, z * a.y - y * a.z);
-    store3(to + 3, x * a.z - z * a.x);
-    store3(to + 6, y * a.x - x * a.y);
+    storeWhere3(test, to, z * a.y - y * a.z);
+    storeWhere3(test, to + 3, x * a.z - z * a.x);
+    storeWhere3(test, to + 6, y * a.x - x * a.y);
     return;
   }
   for (int r = 0; r < shape.rows; ++r) {
     const Triple<N> j = load3<N>(row.angular[b] + 3 * r);
-    store3(to + 3 * r, x * j.x + y * j.y + z * j.z);
+    storeWhere3(test, to + 3 * r, x * j.x + y * j.y + z * j.z);
   }
 }
 
@@ -140,18 +140,19 @@ void buildDiagonal(const Of<N>& s, int i) {
   const JointShape& shape = s.shapes[i];
   const auto& row = s.rows[i];
   auto& factor = s.factors[i];
+  const N stale = load(*s.stale);
   N a[6];
   for (N& entry : a) entry = all<N>(0);
   for (int b = 0; b < shape.bodyCount; ++b) {
     if (!shape.moves[b]) continue;
-    if (shape.hasAngular) respond<N>(shape, row, b, s.bodies[shape.body[b]], factor);
+    if (shape.hasAngular) respond<N>(stale, shape, row, b, s.bodies[shape.body[b]], factor);
     coupleSelf<R, N>(s, i, b, a);
   }
   N trace = a[0];
   if constexpr (R == 3) trace = trace + a[2] + a[5];
   const N mean = trace * all<N>(1.0 / shape.rows);
   const N yields = load(row.regularisation) * mean;
-  store(factor.yields, yields);
+  storeWhere(stale, factor.yields, yields);
   const N extra = yields + wherePositive(mean, all<N>(kRedundancy) * mean, all<N>(1));
   const N free = i < s.tailStart ? load(row.free) : all<N>(1);
   for (int r = 0; r < R; ++r) {
@@ -184,10 +185,10 @@ void buildBlock(const Of<N>& s, int k, int i, const JointBelow& below) {
 }
 
 template <int R, class N>
-void invert(JointFactor<N::kWidth>& factor) {
+void invert(N stale, JointFactor<N::kWidth>& factor) {
   const auto* d = factor.diagonal;
   if constexpr (R == 1) {
-    store(factor.inverse[0], all<N>(1) / load(d[0]));
+    storeWhere(stale, factor.inverse[0], all<N>(1) / load(d[0]));
     return;
   }
   const N a = load(d[0]), b = load(d[1]), c = load(d[2]), e = load(d[3]), f = load(d[4]),
@@ -195,14 +196,14 @@ void invert(JointFactor<N::kWidth>& factor) {
   const N ca = c * g - f * f, cb = e * f - b * g, ce = b * f - c * e;
   const N scale = all<N>(1) / (a * ca + b * cb + e * ce);
   const N inverse[6] = {ca, cb, a * g - e * e, ce, b * e - a * f, a * c - b * b};
-  for (int k = 0; k < 6; ++k) store(factor.inverse[k], inverse[k] * scale);
+  for (int k = 0; k < 6; ++k) storeWhere(stale, factor.inverse[k], inverse[k] * scale);
 }
 
 constexpr int symmetric(int r, int c) { return r > c ? triangle(r, c) : triangle(c, r); }
 
 // L_ki = A_ki D_ii^-1
 template <int R, int C, class N>
-void scale(const Num<N::kWidth>* entry, const JointFactor<N::kWidth>& factor,
+void scale(N stale, const Num<N::kWidth>* entry, const JointFactor<N::kWidth>& factor,
            Num<N::kWidth>* scaled, Column<R, N> (&columns)[C]) {
   Column<R, N> a[C];
   for (int c = 0; c < C; ++c) a[c] = loadColumn<R, N>(entry + c * R);
@@ -212,7 +213,7 @@ void scale(const Num<N::kWidth>* entry, const JointFactor<N::kWidth>& factor,
       columns[c] = columns[c] + a[k] * load(factor.inverse[symmetric(k, c)]);
     }
   }
-  for (int c = 0; c < C; ++c) storeColumn<R, N>(scaled + c * R, columns[c]);
+  for (int c = 0; c < C; ++c) storeColumnWhere<R, N>(stale, scaled + c * R, columns[c]);
 }
 
 // to -= L_qi A_pi^T
@@ -257,21 +258,26 @@ void eliminate(const Of<N>& s, int i) {
   const JointColumn& column = s.columns[i];
   const JointBelow* below = s.below + column.start;
   const int *used = s.usedBelow + column.start, count = s.usedCounts[i];
+  const N stale = load(*s.stale);
   withSize(s.shapes[i].size, [&](auto size) {
     constexpr int kI = decltype(size)::value;
-    invert<kI, N>(factor);
+    invert<kI, N>(stale, factor);
     for (int u = 0; u < count; ++u) {
       const JointBelow& q = below[used[u]];
       withSize(s.shapes[q.to].size, [&](auto high) {
         constexpr int kR = decltype(high)::value;
         Column<kR, N> scaled[kI];
-        scale<kR, kI, N>(s.entries + q.at, factor, s.scaled + q.at, scaled);
+        scale<kR, kI, N>(stale, s.entries + q.at, factor, s.scaled + q.at, scaled);
         const int* target = s.updates + column.updates + used[u] * (used[u] + 1) / 2;
         for (int v = 0; v < u; ++v) {
           const JointBelow& p = below[used[v]];
           if (p.to >= s.tailStart) {  // so is q.to: rows of the tail are one high
             auto& entry = s.tail.a[triangle(q.to - s.tailStart, p.to - s.tailStart)];
-            if constexpr (kR == 1) update<1, 1, kI, N>(&entry, scaled, s.entries + p.at);
+            if constexpr (kR == 1) {
+              const N before = load(entry);
+              update<1, 1, kI, N>(&entry, scaled, s.entries + p.at);
+              store(entry, wherePositive(stale, load(entry), before));
+            }
             continue;
           }
           withSize(s.shapes[p.to].size, [&](auto wide) {
@@ -279,10 +285,16 @@ void eliminate(const Of<N>& s, int i) {
                                                      s.entries + p.at);
           });
         }
-        auto* diagonal = q.to < s.tailStart
-                             ? s.factors[q.to].diagonal
-                             : &s.tail.a[triangle(q.to - s.tailStart, q.to - s.tailStart)];
-        updateDiagonal<kR, kI, N>(diagonal, scaled, s.entries + q.at);
+        if (q.to < s.tailStart) {
+          updateDiagonal<kR, kI, N>(s.factors[q.to].diagonal, scaled, s.entries + q.at);
+          return;
+        }
+        if constexpr (kR == 1) {
+          auto& diagonal = s.tail.a[triangle(q.to - s.tailStart, q.to - s.tailStart)];
+          const N before = load(diagonal);
+          updateDiagonal<1, kI, N>(&diagonal, scaled, s.entries + q.at);
+          store(diagonal, wherePositive(stale, load(diagonal), before));
+        }
       });
     }
   });
@@ -292,16 +304,17 @@ void eliminate(const Of<N>& s, int i) {
 template <class N>
 void buildTail(const Of<N>& s) {
   const JointTail<N::kWidth>& tail = s.tail;
+  const N stale = load(*s.stale);
   int count = 0;
   for (int i = s.tailStart; i < s.rowCount; ++i) {
     if (!s.used[i]) continue;
     const int place = i - s.tailStart;
     for (int k = 0; k < count; ++k) {
-      store(tail.a[triangle(place, tail.places[k])], all<N>(0));
+      storeWhere(stale, tail.a[triangle(place, tail.places[k])], all<N>(0));
     }
     tail.places[count++] = place;
     buildDiagonal<1, N>(s, i);
-    store(tail.a[triangle(place, place)], load(s.factors[i].diagonal[0]));
+    storeWhere(stale, tail.a[triangle(place, place)], load(s.factors[i].diagonal[0]));
   }
   *tail.count = count;
   *tail.isFactored = false;
@@ -314,7 +327,7 @@ void buildTail(const Of<N>& s) {
       const Triple<N> response = load3<N>(s.factors[earlier].response[pair.meeting.earlier[m]]);
       sum = sum + dot(load3<N>(s.rows[later].angular[pair.meeting.later[m]]), response);
     }
-    store(tail.a[triangle(pair.later, pair.earlier)], sum);
+    storeWhere(stale, tail.a[triangle(pair.later, pair.earlier)], sum);
   }
 }
 
@@ -344,16 +357,20 @@ void respondAll(const Of<N>& s) {
     const JointShape& shape = s.shapes[i];
     if (!s.used[i] || !shape.hasAngular) continue;
     for (int b = 0; b < shape.bodyCount; ++b) {
-      if (shape.moves[b]) respond<N>(shape, s.rows[i], b, s.bodies[shape.body[b]], s.factors[i]);
+      if (!shape.moves[b]) continue;
+      respond<N>(all<N>(1), shape, s.rows[i], b, s.bodies[shape.body[b]], s.factors[i]);
     }
   }
 }
 
+// Of lanes that are stale; the others keep theirs, and what is worked out on the way is none of
+// their business.
 template <class N>
 void factorize(const Of<N>& s) {
+  const N stale = load(*s.stale);
   for (int i = 0; i < s.bodyCount; ++i) {
-    store3(s.factored[i].theta, load3<N>(s.bodies[i].theta));
-    store(s.factored[i].volume, volume<N>(s.bodies[i]));
+    storeWhere3(stale, s.factored[i].theta, load3<N>(s.bodies[i].theta));
+    storeWhere(stale, s.factored[i].volume, volume<N>(s.bodies[i]));
   }
   for (int i = 0; i < s.tailStart; ++i) {
     if (!s.used[i]) continue;
@@ -379,31 +396,6 @@ void factorize(const Of<N>& s) {
   for (int i = 0; i < s.tailStart; ++i) {
     if (s.used[i]) eliminate<N>(s, i);
   }
-}
-
-// to[k] <- from[k] in lanes that are not stale
-template <class N>
-void keep(const Num<N::kWidth>* from, N stale, int count, Num<N::kWidth>* to) {
-  for (int k = 0; k < count; ++k) store(to[k], wherePositive(stale, load(to[k]), load(from[k])));
-}
-
-template <class N>
-void restore(const Of<N>& s, const JointKept<N::kWidth>& kept) {
-  const N stale = load(kept.stale);
-  for (int i = 0; i < s.rowCount; ++i) {
-    if (!s.used[i]) continue;
-    const JointFactor<N::kWidth>& from = kept.factors[i];
-    JointFactor<N::kWidth>& to = s.factors[i];
-    keep(from.inverse, stale, 6, to.inverse);
-    keep(&from.yields, stale, 1, &to.yields);
-    for (int b = 0; b < 2; ++b) keep(from.response[b], stale, 9, to.response[b]);
-  }
-  for (int i = 0; i < s.bodyCount; ++i) {
-    keep(kept.factored[i].theta, stale, 3, s.factored[i].theta);
-    keep(&kept.factored[i].volume, stale, 1, &s.factored[i].volume);
-  }
-  keep(kept.scaled, stale, kept.scaledCount, s.scaled);
-  keep(kept.tail, stale, kept.tailCount, s.tail.a);
 }
 
 }  // namespace

@@ -361,10 +361,10 @@ void tellContacts(const Of<N>& s, const JointContacts& of) {
 
 template <class N>
 constexpr JointKernels<N::kWidth> tableOf() {
-  return {place<N>,        turnBack<N>,     seeGaps<N>,     seeLimits<N>,    begin<N>,
-          chooseLimits<N>, keepCarrying<N>, stiffen<N>,     factorize<N>,    restore<N>,
-          findChanged<N>,  respondAll<N>,   aimAtErrors<N>, findOpen<N>,     aimAtVelocities<N>,
-          substitute<N>,   follow<N>,       apply<N>,       takeContacts<N>, tellContacts<N>};
+  return {place<N>,        turnBack<N>,     seeGaps<N>,      seeLimits<N>,       begin<N>,
+          chooseLimits<N>, keepCarrying<N>, stiffen<N>,      factorize<N>,       findChanged<N>,
+          respondAll<N>,   aimAtErrors<N>,  findOpen<N>,     aimAtVelocities<N>, substitute<N>,
+          follow<N>,       apply<N>,        takeContacts<N>, tellContacts<N>};
 }
 
 }  // namespace

@@ -137,6 +137,17 @@ inline void store(Num<8>& p, Eight a) { _mm512_store_pd(p.v, a.v); }
 
 #endif
 
+// Only in lanes where test > 0.
+template <class N>
+inline void storeWhere(N test, Num<N::kWidth>& to, N a) {
+  store(to, wherePositive(test, a, load(to)));
+}
+#ifdef __AVX512F__
+inline void storeWhere(Eight test, Num<8>& to, Eight a) {
+  _mm512_mask_store_pd(to.v, positive(test), a.v);
+}
+#endif
+
 template <class N>
 inline N all(double a) {
   N to;
@@ -181,6 +192,13 @@ inline void store3(Num<N::kWidth>* p, const Triple<N>& a) {
   store(p[0], a.x);
   store(p[1], a.y);
   store(p[2], a.z);
+}
+
+template <class N>
+inline void storeWhere3(N test, Num<N::kWidth>* p, const Triple<N>& a) {
+  storeWhere(test, p[0], a.x);
+  storeWhere(test, p[1], a.y);
+  storeWhere(test, p[2], a.z);
 }
 
 // By lane: it is > 0.

@@ -32,10 +32,7 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     entries_.assign(topology_->lower, Num<W>{});
     scaled_.assign(topology_->lower, Num<W>{});
     factors_.assign(rows_.size(), JointFactor<W>{});
-    keptScaled_ = scaled_;
-    keptFactors_ = factors_;
     factored_.assign(bodies_.size(), JointFactored<W>{});
-    keptFactored_ = factored_;
     states_.assign(topology_->shapes.size(), State{});
     used_.resize(rows_.size());
     steps_.lambda.resize(rows_.size());
@@ -45,7 +42,6 @@ void JointPack<W>::take(std::span<Articulation* const> articulations) {
     usedBelow_.resize(topology_->below.size());
     const std::size_t tail = rows_.size() - topology_->tailStart;
     tail_.resize(tail * (tail + 1) / 2);
-    keptTail_ = tail_;
     tailWork_.resize(tail_.size() + 3 * tail);
     tailGives_.resize(tail);
     tailPlaces_.resize(tail);
@@ -100,6 +96,7 @@ JointView<W> JointPack<W>::view() {
           topology_->updatesAt.data(),
           topology_->meetings.data(),
           &open_,
+          &anew_,
           used_.data(),
           usedBelow_.data(),
           usedCounts_.data(),
@@ -247,32 +244,18 @@ void JointPack<W>::findUsed() {
   }
 }
 
-template <int W>
-void JointPack<W>::factorize() {
-  findUsed();
-  jointKernels<W>().factorize(view());
-  seenSince_ = false;
-  stale_.fill(false);
-}
-
 // Only lanes whose free rows are others than the factor's take what J is now.
 template <int W>
 void JointPack<W>::factorizeStale() {
   const auto isStale = [](bool stale) { return stale; };
   const auto end = stale_.begin() + lanes_;
   if (std::none_of(stale_.begin(), end, isStale)) return;
-  if (!seenSince_ || std::all_of(stale_.begin(), end, isStale)) return factorize();
-  Num<W> stale;
-  for (int l = 0; l < W; ++l) stale.v[l] = stale_[l] ? 1 : 0;
-  std::swap(factors_, keptFactors_);
-  std::swap(scaled_, keptScaled_);
-  std::swap(tail_, keptTail_);
-  std::swap(factored_, keptFactored_);
-  factorize();
-  seenSince_ = true;
-  jointKernels<W>().restore(
-      view(), {keptFactors_.data(), keptFactored_.data(), keptScaled_.data(), keptTail_.data(),
-               static_cast<int>(scaled_.size()), static_cast<int>(tail_.size()), stale});
+  const bool all = !seenSince_ || std::all_of(stale_.begin(), end, isStale);
+  for (int l = 0; l < W; ++l) anew_.v[l] = all || stale_[l] ? 1 : 0;
+  findUsed();
+  jointKernels<W>().factorize(view());
+  if (all) seenSince_ = false;
+  stale_.fill(false);
 }
 
 // Rows that the solution would take past a bound are held there, and the others are to be solved

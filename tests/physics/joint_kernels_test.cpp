@@ -50,14 +50,14 @@ struct Memory {
   std::shared_ptr<const JointTopology> topology = threeLinks();
   std::vector<JointBody<W>> bodies{3};
   std::vector<JointLanes<W>> rows{topology->shapes.size()};
-  std::vector<JointFactor<W>> factors{rows.size()}, keptFactors;
-  std::vector<JointFactored<W>> factored{3}, keptFactored;
+  std::vector<JointFactor<W>> factors{rows.size()};
+  std::vector<JointFactored<W>> factored{3};
   std::vector<Num<W>> entries = std::vector<Num<W>>(topology->lower), scaled = entries;
-  Num<W> open, odd;
+  Num<W> open, stale, odd;
   std::vector<char> used = std::vector<char>(rows.size(), 1);
   std::vector<int> usedBelow = std::vector<int>(topology->below.size()),
                    usedCounts{used.begin(), used.end()};
-  std::vector<Num<W>> tail{10}, factor{10}, scratch{12}, keptScaled, keptTail;
+  std::vector<Num<W>> tail{10}, factor{10}, scratch{12};
   std::vector<char> gives{0, 0, 0, 0};
   std::vector<int> places{0, 0, 0, 0};
   int tailCount = 0;
@@ -86,6 +86,7 @@ struct Memory {
             topology->updatesAt.data(),
             topology->meetings.data(),
             &open,
+            &stale,
             used.data(),
             usedBelow.data(),
             usedCounts.data(),
@@ -97,7 +98,7 @@ struct Memory {
   void fill(int l, unsigned seed) {
     std::mt19937 random(seed);
     const auto next = [&] { return random() / 4294967296.0 - 0.5; };
-    open.v[l] = 1;
+    open.v[l] = stale.v[l] = 1;
     odd.v[l] = seed % 2;
     for (JointBody<W>& body : bodies) {
       body.startQ[0].v[l] = 1;
@@ -148,22 +149,12 @@ struct Memory {
     kernels.aimAtVelocities(s);
     kernels.substitute(s);
     kernels.apply(s);
-    refactorizeOdd(kernels);
+    stale = odd;  // the other lanes keep what they have
+    kernels.factorize(s);
     kernels.aimAtVelocities(s);
     kernels.substitute(s);
     kernels.apply(s);
     kernels.stiffen(s);
-  }
-  // Where the seed is odd; the other lanes keep what they have.
-  void refactorizeOdd(const JointKernels<W>& kernels) {
-    keptFactors = factors;
-    keptFactored = factored;
-    keptScaled = scaled;
-    keptTail = tail;
-    kernels.factorize(view());
-    kernels.restore(view(),
-                    {keptFactors.data(), keptFactored.data(), keptScaled.data(), keptTail.data(),
-                     static_cast<int>(scaled.size()), static_cast<int>(tail.size()), odd});
   }
 };
 
