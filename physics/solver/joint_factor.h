@@ -242,6 +242,13 @@ void updateDiagonal(Num<N::kWidth>* to, const Column<R, N> (&scaled)[I],
   }
 }
 
+// The same of an entry of the tail, whose rows are one high, and which stays in other lanes.
+template <int I, class N>
+void updateTail(const Of<N>& s, int row, const JointBelow& p, const N (&scaled)[I]) {
+  auto& to = s.tail.a[triangle(row - s.tailStart, p.to - s.tailStart)];
+  storeWhere(load(*s.stale), to, load(to) - product<1, I, 1, N>(scaled, s.entries + p.at));
+}
+
 template <int kSize>
 struct Size {
   static constexpr int value = kSize;
@@ -271,13 +278,8 @@ void eliminate(const Of<N>& s, int i) {
         const int* target = s.updates + column.updates + used[u] * (used[u] + 1) / 2;
         for (int v = 0; v < u; ++v) {
           const JointBelow& p = below[used[v]];
-          if (p.to >= s.tailStart) {  // so is q.to: rows of the tail are one high
-            auto& entry = s.tail.a[triangle(q.to - s.tailStart, p.to - s.tailStart)];
-            if constexpr (kR == 1) {
-              const N before = load(entry);
-              update<1, 1, kI, N>(&entry, scaled, s.entries + p.at);
-              store(entry, wherePositive(stale, load(entry), before));
-            }
+          if (p.to >= s.tailStart) {  // so is q.to
+            if constexpr (kR == 1) updateTail<kI, N>(s, q.to, p, scaled);
             continue;
           }
           withSize(s.shapes[p.to].size, [&](auto wide) {
@@ -289,12 +291,7 @@ void eliminate(const Of<N>& s, int i) {
           updateDiagonal<kR, kI, N>(s.factors[q.to].diagonal, scaled, s.entries + q.at);
           return;
         }
-        if constexpr (kR == 1) {
-          auto& diagonal = s.tail.a[triangle(q.to - s.tailStart, q.to - s.tailStart)];
-          const N before = load(diagonal);
-          updateDiagonal<1, kI, N>(&diagonal, scaled, s.entries + q.at);
-          store(diagonal, wherePositive(stale, load(diagonal), before));
-        }
+        if constexpr (kR == 1) updateTail<kI, N>(s, q.to, q, scaled);
       });
     }
   });

@@ -318,7 +318,7 @@ void takeContacts(const Of<N>& s, const JointContacts& of) {
     loadSix(motions, now);
     loadSix(before, then);
     loadRoots(of, i, root);
-    for (int l = 0; l < of.lanes; ++l) __builtin_memcpy(before[l], motions[l], sizeof(LaneStart));
+    storeSix(now, before, of.lanes);
     for (int k = 0; k < 6; ++k) now[k] = now[k] - then[k];
     auto& body = s.bodies[i];
     store3<N>(body.u, load3<N>(body.u) + Triple<N>{now[0], now[1], now[2]});
@@ -327,9 +327,7 @@ void takeContacts(const Of<N>& s, const JointContacts& of) {
         theta + Triple<N>{root[0] * now[3], root[1] * now[3] + root[3] * now[4],
                           root[2] * now[3] + root[4] * now[4] + root[5] * now[5]};
     const N turns = load(body.inertia[0]) + load(body.inertia[1]) + load(body.inertia[2]);
-    store3<N>(body.theta,
-              {wherePositive(turns, turned.x, theta.x), wherePositive(turns, turned.y, theta.y),
-               wherePositive(turns, turned.z, theta.z)});
+    storeWhere3(turns, body.theta, turned);
   }
 }
 
