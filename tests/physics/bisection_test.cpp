@@ -33,7 +33,9 @@ TEST(Bisection, HasEveryBodyOnceInPartsOfEqualSize) {
   EXPECT_EQ(std::set<BodyId>(cloud.bodies.begin(), cloud.bodies.end()).size(), 1003U);
   std::vector<int> sizes(8, 0);
   for (std::size_t k = 0; k < cloud.bodies.size(); ++k) {
-    if (k > 0) EXPECT_GE(bisection.partOf(k), bisection.partOf(k - 1));
+    if (k > 0) {
+      EXPECT_GE(bisection.partOf(k), bisection.partOf(k - 1));
+    }
     ++sizes[bisection.partOf(k)];
   }
   for (const int size : sizes) EXPECT_NEAR(size, 1003 / 8.0, 1);
