@@ -180,6 +180,11 @@ BodyId SmallSteps::Impl::rootOf(const Model& w, const KeptContact& c) const {
   return islands[moverOf(w.bodies, c)];
 }
 
+// The same, of a lane.
+BodyId SmallSteps::Impl::rootOf(const Batch& batch, const ContactBlock& block, int lane) const {
+  return islands[batch.slots[moverIn(block, lane)]];
+}
+
 // The substep of that island [s].
 double SmallSteps::Impl::lengthOf(const Bodies& b, const KeptContact& c) const {
   return length[moverOf(b, c)];

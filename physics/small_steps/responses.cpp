@@ -159,6 +159,12 @@ LaneStart SmallSteps::Impl::lookAtResponse(Batch& batch, int slot) const {
   return now;
 }
 
+void SmallSteps::Impl::lookAtResponses(Batch& batch) const {
+  for (std::size_t s = 1; s < batch.responders.size(); ++s) {
+    if (batch.responders[s].articulation >= 0) lookAtResponse(batch, static_cast<int>(s));
+  }
+}
+
 // What a sweep gave it beside that, as if it had no joints.
 void SmallSteps::Impl::respondTo(const Batch& batch, int slot, const LaneStart& before) {
   const Responder& to = batch.responders[slot];

@@ -91,6 +91,7 @@ void SmallSteps::Impl::makeRoom(std::size_t bodies) {
   predicted.resize(bodies);
   opened.resize(bodies);
   change.resize(bodies);
+  turns.resize(bodies);
   changeBefore.resize(bodies);
 }
 

@@ -87,8 +87,9 @@ constexpr double kLargestStrain = 0.02;  // of what holds a mesh, and overlaps o
 
 constexpr int kByItself = -2;  // of a body's batch: its island has stepped, by an accuracy
 
-// Of what is swept: of ropes, of contacts in islands with joints, and of contacts about deep
-// overlaps, where a push finds its way through a column of five in that many.
+// Of what is swept: of ropes, of contacts in islands with joints, at the least where they take
+// turns, and of contacts about deep overlaps, where a push finds its way through a column of five
+// in that many.
 constexpr int kPositionSweeps = 4;
 
 // Contacts are in single precision: of a displacement no less than this part is known.
@@ -177,6 +178,11 @@ struct SmallSteps::Trial {
   AccuracyReport told;
 };
 
+// The slot of a body that moves, of a lane that has a contact.
+inline int moverIn(const ContactBlock& block, int l) {
+  return block.bodyA[l] > 0 ? block.bodyA[l] : block.bodyB[l];
+}
+
 // Rows are prepared where the body is now.
 inline void startRows(LaneMotion& motion) {
   for (int k = 0; k < 3; ++k) motion.du[k] = motion.dturn[k] = 0;
@@ -235,10 +241,12 @@ struct SmallSteps::Impl {
     double change = 0, way = 0;
   };
   std::vector<Closing> closings;
-  std::vector<ContactLoads> closedLoads;  // by block, of lanes whose islands are closed
+  std::vector<ContactLoads> closedLoads;  // by block, of lanes whose islands are closed, or settled
   std::vector<LaneNumbers> closedChanges;
   double now = 0;                     // s, where what is stepped next starts
-  std::vector<LaneStart> swept;       // by slot: after the last sweep
+  std::vector<LaneMotion> swept;      // by slot: after the last sweep
+  std::vector<LaneStart> turnsStart;  // by slot: before contacts and joints take turns
+  std::vector<double> turns;          // by body: 1 where its island takes another
   bool known = false;                 // these are those of the world's constraints
   std::vector<int> substeps, sweeps;  // by body: of the last step, and what the next one asks for
   std::vector<int> asked, askedSweeps;
@@ -389,6 +397,7 @@ struct SmallSteps::Impl {
   void respond(Batch& batch);
   void prepareResponses(Batch& batch, ContactBlock& block, int lane) const;
   LaneStart lookAtResponse(Batch& batch, int slot) const;
+  void lookAtResponses(Batch& batch) const;
   void respondTo(const Batch& batch, int slot, const LaneStart& before);
   void weighJoints(const Model& w, const Batch& batch);
   template <class F>
@@ -447,11 +456,19 @@ struct SmallSteps::Impl {
   void bounce(Model& w, Batch& batch, double h);
   void solveContactPositions(Model& w, Batch& batch, const JointStage& stage);
   void takeTurns(Model& w, Batch& batch, const JointStage& stage);
-  void addWork(const Model& w, const Batch& batch, std::vector<double>& work);
+  bool limitGuess(Model& w, Batch& batch);
+  void weighTurn(const Batch& batch);
+  bool findUnsettled(const Batch& batch);
+  bool keepSettled(const Batch& batch);
+  void takeSettled(Batch& batch) const;
+  void addWork(const Batch& batch, std::vector<double>& work);
   bool findRise(Model& w, Batch& batch);
   void holdPredicted(Batch& batch, const JointStage& stage);
   void swapPredicted(const Batch& batch);
-  void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& shares);
+  static void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& parts);
+  template <class Part>
+  void takeParts(Model& w, Batch& batch, Part&& partOf);
+  void takeShares(Model& w, Batch& batch);
   void forgetLoads(Model& w, Batch& batch);
   void boundWork(Model& w, Batch& batch, const JointStage& stage);
   void solvePositions(Model& w, Batch& batch, double h);
@@ -532,6 +549,7 @@ struct SmallSteps::Impl {
   std::vector<IslandRound> rounds;
   void goAhead(const Model& w, Batch& batch);
   BodyId rootOf(const Model& w, const KeptContact& c) const;
+  BodyId rootOf(const Batch& batch, const ContactBlock& block, int lane) const;
   double lengthOf(const Bodies& b, const KeptContact& c) const;
   bool isJointed(const KeptContact& c) const;
   double sagOfWay(const Model& w, const KeptContact& c, double size) const;
@@ -636,7 +654,7 @@ void SmallSteps::Impl::forEachPart(const Batch& batch, F&& f) {
     const ContactBlock& block = batch.blocks[i];
     for (int l = 0; l < ContactBlock::kLanes; ++l) {
       if (block.contact[l] < 0) continue;
-      f(i, l, batch.partOf[block.bodyA[l] > 0 ? block.bodyA[l] : block.bodyB[l]]);
+      f(i, l, batch.partOf[moverIn(block, l)]);
     }
   }
 }

@@ -335,7 +335,9 @@ void SmallSteps::Impl::solveVelocities(Model& w, Batch& batch, double h) {
     if (count > 0 && s + 1 < batch.sweeps) toLanes(w, batch);
   }
   if (inLanes) tellBodies(w, batch, stage);
-  if (count > 0 && batch.takesTurns() && !learning) boundWork(w, batch, stage);
+  if (count == 0 || !batch.takesTurns() || learning) return;
+  if (!inLanes) toLanes(w, batch);
+  boundWork(w, batch, stage);
 }
 
 // v = u / h

@@ -160,8 +160,8 @@ void JointPacks::startTurns(const JointStage& stage, const LaneBodies& lanes) {
   forEach([&](auto& pack) { pack.startTurns(stage, lanes); });
 }
 
-void JointPacks::followPositions(const LaneBodies& lanes) {
-  forEach([&](auto& pack) { pack.followPositions(lanes); });
+void JointPacks::followPositions(const LaneBodies& lanes, std::span<const double> wanted) {
+  forEach([&](auto& pack) { pack.followPositions(lanes, wanted); });
 }
 
 void JointPacks::tell(const JointStage& stage) {

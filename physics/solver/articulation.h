@@ -166,7 +166,7 @@ class JointPack {
   void seePositions(const JointStage& stage);
   void followPositions(const JointStage& stage);
   void startTurns(const JointStage& stage, const LaneBodies& lanes);
-  void followPositions(const LaneBodies& lanes);
+  void followPositions(const LaneBodies& lanes, std::span<const double> wanted);
   void tell(const JointStage& stage) const;
   void closePositions(const JointStage& stage, std::span<const Displacement> predicted);
   void prepareVelocities(const JointStage& stage);
@@ -197,6 +197,7 @@ class JointPack {
   void solveOpenVelocities();
   void solveOpenVelocities(const JointStage& stage);
   JointContacts contactsOf(const LaneBodies& lanes);
+  void followOpen(const LaneBodies& lanes);
   void see(const JointStage& stage, bool first);
   void seeGaps(const JointStage& stage);
   void noteSeen();
@@ -275,9 +276,10 @@ class JointPacks {
   void seePositions(const JointStage& stage);
   void followPositions(const JointStage& stage);
   // The same in turns with contacts, whose lanes have moved since `moved`: from them and into them,
-  // to be told in the end. The first turn evaluates the rows, where `moved` has the bodies.
+  // to be told in the end. The first turn evaluates the rows, where `moved` has the bodies; the
+  // others are of those alone of which `wanted`, by their first body, is more than 0.
   void startTurns(const JointStage& stage, const LaneBodies& lanes);
-  void followPositions(const LaneBodies& lanes);
+  void followPositions(const LaneBodies& lanes, std::span<const double> wanted);
   void tell(const JointStage& stage);
   // As often as it takes until what is off before another step is kClosed.
   void closePositions(const JointStage& stage, std::span<const Displacement> predicted);

@@ -435,13 +435,18 @@ JointContacts JointPack<W>::contactsOf(const LaneBodies& lanes) {
 template <int W>
 void JointPack<W>::startTurns(const JointStage& stage, const LaneBodies& lanes) {
   seePositions(stage);
-  followPositions(lanes);
+  followOpen(lanes);
 }
 
 template <int W>
-void JointPack<W>::followPositions(const LaneBodies& lanes) {
+void JointPack<W>::followPositions(const LaneBodies& lanes, std::span<const double> wanted) {
+  open(wanted);
+  if (!isNoneOpen()) followOpen(lanes);
+}
+
+template <int W>
+void JointPack<W>::followOpen(const LaneBodies& lanes) {
   const JointContacts contacts = contactsOf(lanes);
-  openAll();
   jointKernels<W>().takeContacts(view(), contacts);
   step();
   jointKernels<W>().tellContacts(view(), contacts);
