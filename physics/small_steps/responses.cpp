@@ -159,6 +159,7 @@ LaneStart SmallSteps::Impl::lookAtResponse(Batch& batch, int slot) const {
   return now;
 }
 
+// Of all, where sweeps have looked at those of their own blocks alone.
 void SmallSteps::Impl::lookAtResponses(Batch& batch) const {
   for (std::size_t s = 1; s < batch.responders.size(); ++s) {
     if (batch.responders[s].articulation >= 0) lookAtResponse(batch, static_cast<int>(s));

@@ -457,6 +457,7 @@ struct SmallSteps::Impl {
   void solveContactPositions(Model& w, Batch& batch, const JointStage& stage);
   void takeTurns(Model& w, Batch& batch, const JointStage& stage);
   bool limitGuess(Model& w, Batch& batch);
+  bool findShares(const Batch& batch, double times);
   void weighTurn(const Batch& batch);
   bool findUnsettled(const Batch& batch);
   bool keepSettled(const Batch& batch);
