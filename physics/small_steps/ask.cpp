@@ -23,11 +23,9 @@ constexpr double kLargestOfColumn = 0.1, kLeastSag = 1.25e-4;
 // What the last velocity sweep may change, of the energy that an island has in g h^2, so that what
 // stands comes to rest, and of that in motion of what touches past each other: by a twentieth of
 // the way in a substep, which is of first order. Of a heap of 1000, 32 substeps of 32 sweeps are
-// met no closer with 1e-4, for which all sweeps are made. What takes turns with joints has more to
-// come than its last turn tells: by a twentieth, thirty figures in a bowl have three times the
-// energy in motion after eight seconds.
-constexpr double kRest = 1e-6, kMotion = 2.5e-3, kMotionInTurns = 1e-4;
-constexpr int kMostSweeps = 8, kMostJointedSweeps = 2;  // joints are solved again in each
+// met no closer with 1e-4, for which all sweeps are made. Turns with joints end by themselves.
+constexpr double kRest = 1e-6, kMotion = 2.5e-3;
+constexpr int kMostSweeps = 8;
 
 // What goes with h^2 and is `times` too large.
 int substepsFor(int present, double times) {
@@ -112,11 +110,6 @@ SmallSteps::Impl::Weighed SmallSteps::Impl::weigh(const Model& w, const Batch& b
   return of;
 }
 
-// Of the energy in motion, by the last sweep.
-double SmallSteps::Impl::mayChange(const Batch& batch) {
-  return batch.takesTurns() ? kMotionInTurns : kMotion;
-}
-
 // Of islands: summed in the order of the contacts, for the same bytes on any number of threads.
 void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch) {
   weighed.resize(batch.blocks.size());
@@ -128,12 +121,11 @@ void SmallSteps::Impl::weighContacts(Model& w, const Batch& batch) {
       }
     }
   });
-  const double share = mayChange(batch);
   for (const auto& lanes : weighed) {
     for (const Weighed& of : lanes) {
       change[of.root] += of.change;
       changeBefore[of.root] += of.changeBefore;
-      energy[of.root] += share * of.motion;
+      energy[of.root] += kMotion * of.motion;
       whole[of.root] += of.motion;
       sag[of.root] += of.sag;
       drawn[of.root] += of.drawn;
@@ -233,8 +225,8 @@ void SmallSteps::Impl::weighJoints(const Model& w, const Batch& batch) {
 bool SmallSteps::Impl::asksAtOnce(const Model& w, const Batch& batch, BodyId root) const {
   if (learning || batch.isSoft() || !batch.softPairs.empty()) return false;
   if (batch.isAtOnce) return batch.joined == Joined::kResponds || isOverloaded(w, batch);
-  const double most = mayChange(batch) * whole[root];
-  if (batch.sweeps < 2 || !uneven[root] || !(change[root] > most)) return false;
+  if (batch.takesTurns()) return uneven[root] && turns[root] > 0;
+  if (batch.sweeps < 2 || !uneven[root] || !(change[root] > kMotion * whole[root])) return false;
   const double r = change[root] / changeBefore[root], slow = 1 - std::sqrt(r);
   return !(slow > 0) || change[root] * r > slow * slow * whole[root];
 }
@@ -248,18 +240,18 @@ void SmallSteps::Impl::ask(Model& w, const Batch& batch) {
   weighMotion(w, batch);
   weighContacts(w, batch);
   askFiner(w, batch);
-  const int most = batch.takesTurns() ? kMostJointedSweeps : kMostSweeps;
   for (const BodyId i : batch.bodies) {
     const BodyId root = islands[i];
     if (load[root] > 0) {
       want(i, substepsFor(takenBy(w, root), sagOf(root)), SubstepLaw::kSag);
     }
-    askedSweeps[i] = batch.sweeps;
+    askedSweeps[i] = batch.takesTurns() ? 1 : batch.sweeps;
     askedAtOnce[i] = root == i && asksAtOnce(w, batch, root);
+    if (batch.takesTurns()) continue;
     if (learning) {
-      askedSweeps[i] = most;  // they go down where the motion allows it
+      askedSweeps[i] = kMostSweeps;  // they go down where the motion allows it
     } else if (change[root] > energy[root]) {
-      askedSweeps[i] = std::min(most, batch.sweeps + 1);
+      askedSweeps[i] = std::min(kMostSweeps, batch.sweeps + 1);
     } else if (batch.sweeps > 1 && changeBefore[root] <= energy[root]) {
       --askedSweeps[i];  // the last one was not needed
     }

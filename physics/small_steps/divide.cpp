@@ -142,9 +142,10 @@ bool SmallSteps::Impl::isHit(const Model& w, const KeptContact& c) {
 SmallSteps::Batch& SmallSteps::Impl::batchFor(const Model& w, BodyId root) {
   const bool touches = held[root] == Held::kTouching;
   const bool isAtOnce = touches && atOnce[root] && !deforms[root] && !hangs[root];
-  // Its steps are its own, or its loads.
+  // Its steps are its own, or its loads, or its turns.
+  const bool turnsSoft = deforms[root] && joined[root] == Joined::kTakesTurns;
   const bool isAlone = (w.settings.accuracy && (touches || deforms[root])) || isAtOnce ||
-                       (learning && rounds[root].isAlone);
+                       turnsSoft || (learning && rounds[root].isAlone);
   for (std::size_t k = 0; k < batchCount && !isAlone; ++k) {
     const Batch& batch = batches[k];
     if (batch.substeps == substeps[root] && batch.sweeps == sweeps[root] &&

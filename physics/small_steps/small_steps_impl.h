@@ -99,6 +99,12 @@ constexpr double kKnown = 1e-6;
 // that contacts and joints take turns; the articulated mass of some.
 enum class Joined : char { kNot, kTakesTurns, kResponds };
 
+// Of contacts and joints.
+struct Turns {
+  int least;
+  double settled;  // until what one gives is no more than this part of all
+};
+
 // Eight numbers, of the lanes of a block.
 struct alignas(32) LaneNumbers {
   float of[ContactBlock::kLanes] = {};
@@ -116,13 +122,14 @@ ContactLoads loadsOf(const ContactBlock& block);
 // Islands of equal substeps and sweeps, which step side by side.
 struct SmallSteps::Batch {
   int substeps = 1, sweeps = 1;
-  bool touches = false;          // contacts of rigid bodies, in every island of it
-  Joined joined = Joined::kNot;  // in every island of it
-  bool isDeep = false;           // it has overlaps that the push speed limits
-  bool isAgain = false;          // another attempt of what too few substeps took apart
-  bool isLost = false;           // by an accuracy: no step resolves what its islands do
-  bool isAtOnce = false;         // one island: Newton's method before the sweeps over its loads
-  bool closes = false;           // sweeps go on until contacts are closed, of each of its parts
+  int positionSweeps = 1, velocitySweeps = 1;  // in the last substep
+  bool touches = false;                        // contacts of rigid bodies, in every island of it
+  Joined joined = Joined::kNot;                // in every island of it
+  bool isDeep = false;                         // it has overlaps that the push speed limits
+  bool isAgain = false;   // another attempt of what too few substeps took apart
+  bool isLost = false;    // by an accuracy: no step resolves what its islands do
+  bool isAtOnce = false;  // one island: Newton's method before the sweeps over its loads
+  bool closes = false;    // sweeps go on until contacts are closed, of each of its parts
   std::vector<BodyId> bodies;
   std::vector<int> contacts, articulations, deformables;
   JointPacks joints;                // of these articulations
@@ -457,21 +464,21 @@ struct SmallSteps::Impl {
   void solveContactPositions(Model& w, Batch& batch, const JointStage& stage);
   void takeTurns(Model& w, Batch& batch, const JointStage& stage);
   bool limitGuess(Model& w, Batch& batch);
-  bool findShares(const Batch& batch, double times);
+  bool findShares(const Batch& batch);
+  template <class Contacts, class Joints>
+  int turnUntilSettled(Batch& batch, const Turns& of, Contacts&& contacts, Joints&& joints);
+  void turnVelocities(Model& w, Batch& batch, const JointStage& stage);
   void weighTurn(const Batch& batch);
-  bool findUnsettled(const Batch& batch);
+  bool findUnsettled(const Batch& batch, double settled);
   bool keepSettled(const Batch& batch);
   void takeSettled(Batch& batch) const;
   void addWork(const Batch& batch, std::vector<double>& work);
-  bool findRise(Model& w, Batch& batch);
-  void holdPredicted(Batch& batch, const JointStage& stage);
-  void swapPredicted(const Batch& batch);
   static void takeBack(Batch& batch, ContactBlock& block, const LaneNumbers& parts);
   template <class Part>
   void takeParts(Model& w, Batch& batch, Part&& partOf);
   void takeShares(Model& w, Batch& batch);
   void forgetLoads(Model& w, Batch& batch);
-  void boundWork(Model& w, Batch& batch, const JointStage& stage);
+  double closingShare(const Model& w, BodyId root) const;
   void solvePositions(Model& w, Batch& batch, double h);
   void sweepDeformables(Model& w, Batch& batch, double h);
   void solveVelocities(Model& w, Batch& batch, double h);
@@ -498,7 +505,6 @@ struct SmallSteps::Impl {
   };
   std::vector<std::array<Weighed, ContactBlock::kLanes>> weighed;  // scratch, by block
   Weighed weigh(const Model& w, const Batch& batch, const ContactBlock& block, int l) const;
-  static double mayChange(const Batch& batch);
   void weighContacts(Model& w, const Batch& batch);
   bool asksAtOnce(const Model& w, const Batch& batch, BodyId root) const;
   void askJoints(const Model& w, const Batch& batch);

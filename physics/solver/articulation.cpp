@@ -124,8 +124,8 @@ void JointPacks::stiffen(std::span<Mat3> stiffness) {
   forEach([&](auto& pack) { pack.stiffen(stiffness); });
 }
 
-void JointPacks::leave(const JointStage& stage, double most) {
-  forEach([&](auto& pack) { pack.leave(stage, most); });
+void JointPacks::leave(const JointStage& stage, double most, double ofLimits) {
+  forEach([&](auto& pack) { pack.leave(stage, most, ofLimits); });
 }
 
 void JointPacks::seeStart(const JointStage& stage) {
@@ -183,16 +183,8 @@ void JointPacks::solveVelocities(const JointStage& stage) {
   forEach([&](auto& pack) { pack.solveVelocities(stage); });
 }
 
-void JointPacks::solveVelocities(const JointStage& stage, std::span<const double> wanted) {
-  forEach([&](auto& pack) { pack.solveVelocities(stage, wanted); });
-}
-
-void JointPacks::solveVelocities(const LaneBodies& lanes) {
-  forEach([&](auto& pack) { pack.solveVelocities(lanes); });
-}
-
-void JointPacks::holdVelocities(const JointStage& stage, std::span<const double> wanted) {
-  forEach([&](auto& pack) { pack.holdVelocities(stage, wanted); });
+void JointPacks::solveVelocities(const LaneBodies& lanes, std::span<const double> wanted) {
+  forEach([&](auto& pack) { pack.solveVelocities(lanes, wanted); });
 }
 
 void JointPacks::refineVelocities(const JointStage& stage) {

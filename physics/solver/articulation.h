@@ -158,7 +158,7 @@ class JointPack {
  public:
   void take(std::span<Articulation* const> articulations);
   void stiffen(std::span<Mat3> stiffness);
-  void leave(const JointStage& stage, double most);
+  void leave(const JointStage& stage, double most, double ofLimits);
   void seeStart(const JointStage& stage);
   bool areNearlyClosed(const JointStage& stage);
   bool findApart(std::span<double> marks) const;
@@ -171,9 +171,7 @@ class JointPack {
   void closePositions(const JointStage& stage, std::span<const Displacement> predicted);
   void prepareVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
-  void solveVelocities(const JointStage& stage, std::span<const double> wanted);
-  void solveVelocities(const LaneBodies& lanes);
-  void holdVelocities(const JointStage& stage, std::span<const double> wanted);
+  void solveVelocities(const LaneBodies& lanes, std::span<const double> wanted);
   void refineVelocities(const JointStage& stage);
   void respond();
   void finish(Kinds& kinds, double h);
@@ -261,8 +259,9 @@ class JointPacks {
  public:
   void take(std::span<Articulation> articulations, std::span<const int> which);
   void stiffen(std::span<Mat3> stiffness);  // by BodyId: of what joints pull with
-  // Before the substep, where errors are taken back by at most so much [m, rad].
-  void leave(const JointStage& stage, double most);
+  // Before the substep, where errors are taken back by at most so much [m, rad], and this part of
+  // those of limits is left.
+  void leave(const JointStage& stage, double most, double ofLimits);
   // Joints that are apart where a step begins, or that Newton's steps have not closed: what brings
   // them together is no motion, and bodies go on from what was `predicted` before, and what forces
   // gave them. Marks by BodyId which these are; true: there are some.
@@ -286,12 +285,7 @@ class JointPacks {
   // Evaluates at the end of the substep, and solves; then, as often as contacts are swept:
   void startVelocities(const JointStage& stage);
   void solveVelocities(const JointStage& stage);
-  // Of those alone of which `wanted`, by their first body, is more than 0.
-  void solveVelocities(const JointStage& stage, std::span<const double> wanted);
-  void solveVelocities(const LaneBodies& lanes);
-  // What those bodies would move by if the joints that hold now held them alone; these do not
-  // change.
-  void holdVelocities(const JointStage& stage, std::span<const double> wanted);
+  void solveVelocities(const LaneBodies& lanes, std::span<const double> wanted);
   void refineVelocities(const JointStage& stage);  // again, where the factor is a former one
   void respond();                                  // of those that ask: `Articulation::response`
   void addRows(std::vector<SharedRow>& rows);      // as they were evaluated last

@@ -1,6 +1,8 @@
 // Articulations of equal topology through the stages of a substep: what differs from lane to lane
 // is here, what does not is in the kernels.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "physics/solver/articulation.h"
 #include "physics/solver/joint_lanes.h"
@@ -181,9 +183,13 @@ bool JointPack<W>::givesWay(int i, int l) const {
 }
 
 // What of the errors at X^t a substep leaves to later ones, where they are taken back no faster
-// than `most` [m, rad] at a time.
+// than `most` [m, rad] at a time, and this part of those of limits not at all.
 template <int W>
-void JointPack<W>::leave(const JointStage& stage, double most) {
+void JointPack<W>::leave(const JointStage& stage, double most, double ofLimits) {
+  const auto mayLeave = [&](const JointShape& shape) {
+    return std::isfinite(most) || (isLimit(shape) && ofLimits > 0);
+  };
+  if (std::none_of(topology_->shapes.begin(), topology_->shapes.end(), mayLeave)) return;
   seeGaps(stage);
   jointKernels<W>().seeLimits(view(), true);
   seeOthers(stage, true, false);
@@ -197,7 +203,9 @@ void JointPack<W>::leave(const JointStage& stage, double most) {
           isKernels || (states_[i].active[l] && states_[i].role[l] == JointRow::Role::kConstraint);
       const bool holds =
           speaks && (isGap || clamped(topology_->shapes[i], rows_[i], l, -c) != Vec3::Zero());
-      write(rows_[i].left, l, holds && error > most ? (1 - most / error) * c : Vec3::Zero().eval());
+      const double ofThis = isLimit(topology_->shapes[i]) ? ofLimits : 0;
+      const double part = holds && error > 0 ? std::max(1 - most / error, ofThis) : 0;
+      write(rows_[i].left, l, (std::max(part, 0.0) * c).eval());
     }
   }
 }
@@ -669,30 +677,10 @@ void JointPack<W>::solveVelocities(const JointStage& stage) {
 }
 
 template <int W>
-void JointPack<W>::solveVelocities(const JointStage& stage, std::span<const double> wanted) {
-  open(wanted);
-  solveOpenVelocities(stage);
-}
-
-template <int W>
-void JointPack<W>::holdVelocities(const JointStage& stage, std::span<const double> wanted) {
+void JointPack<W>::solveVelocities(const LaneBodies& lanes, std::span<const double> wanted) {
   open(wanted);
   if (isNoneOpen()) return;
-  gatherMotion<W>(ids_, stage.moved, bodies_);
-  for (int l = 0; l < lanes_; ++l) noteStep(l, 0);
-  const JointKernels<W>& kernels = jointKernels<W>();
-  factorizeStale();
-  kernels.aimAtVelocities(view());
-  kernels.substitute(view());
-  kernels.apply(view());
-  scatterMotion<W>(ids_, lanes_, topology_->moves, bodies_, stage.moved);
-  for (int l = 0; l < lanes_; ++l) goBack(l, 0);
-}
-
-template <int W>
-void JointPack<W>::solveVelocities(const LaneBodies& lanes) {
   const JointContacts contacts = contactsOf(lanes);
-  openAll();
   jointKernels<W>().takeContacts(view(), contacts);
   solveOpenVelocities();
   jointKernels<W>().tellContacts(view(), contacts);

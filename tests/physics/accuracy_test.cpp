@@ -577,7 +577,7 @@ TEST(Accuracy, RemembersWhichStepsFail) {
 }
 
 // Boxes that are joined fall and tumble on rough ground: what an impact gave within short steps is
-// no force that lasts. As one it made eight times their energy in a frame; 0.5 % are what is left.
+// no force that lasts. As one it made eight times their energy in a frame; 0.3 % are what is left.
 TEST(Accuracy, OfJointedBoxesThatTumbleGainsNoEnergy) {
   for (int seed = 0; seed < 120; ++seed) {
     std::mt19937 random(seed);
@@ -604,7 +604,7 @@ TEST(Accuracy, OfJointedBoxesThatTumbleGainsNoEnergy) {
     for (int frame = 0; frame < 90; ++frame) {
       world.step();
       const double now = measure(world).total();
-      EXPECT_LT(now, 1.01 * before) << seed << ' ' << frame;
+      EXPECT_LT(now, 1.005 * before) << seed << ' ' << frame;
       before = now;
     }
   }
