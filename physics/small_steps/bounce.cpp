@@ -50,11 +50,34 @@ void SmallSteps::Impl::bounce(Model& w, Batch& batch, double h) {
   std::vector<Vec3> before(slots);
   for (int s = 1; s < slots; ++s) before[s] = b.pose[batch.slots[s]].x;
   restitute(batch.impacts, b, w.flight(h));
+  passOn(w, batch, h);
   for (int s = 1; s < slots; ++s) {  // what was flown after the hit
     const Vec3 flown = b.pose[batch.slots[s]].x - before[s];
     for (int k = 0; k < 3; ++k) batch.motions[s].du[k] += static_cast<float>(flown[k]);
   }
   profileScope("");
+}
+
+// What a limb alone was given back is for all that joints hold to it: until the next substep it
+// would be energy that nothing gave.
+void SmallSteps::Impl::passOn(Model& w, Batch& batch, double h) {
+  Bodies& b = w.bodies;
+  const auto forEachJointed = [&](auto&& f) {
+    for (const int k : batch.articulations) {
+      for (const BodyId i : articulations[k].bodies()) {
+        if (b.motion[i] == Motion::kDynamic) f(i, moved[i], b.velocity[i]);
+      }
+    }
+  };
+  bool some = false;
+  forEachJointed([&](BodyId i, Displacement& m, const Velocity& v) {
+    const double rate = 1 / length[i];
+    some = some || v.v != rate * m.u || v.w != rate * m.theta;
+    m = {h * v.v, h * v.w};
+  });
+  if (!some) return;
+  batch.joints.solveVelocities({w.kinds, b.pose, b.start, h, masses, moved});
+  forEachJointed([&](BodyId, const Displacement& m, Velocity& v) { v = {m.u / h, m.theta / h}; });
 }
 
 }  // namespace physics

@@ -461,6 +461,7 @@ struct SmallSteps::Impl {
   static void forEachLane(const Batch& batch, F&& f);
   void noteApproach(Model& w, Batch& batch, double h);
   void bounce(Model& w, Batch& batch, double h);
+  void passOn(Model& w, Batch& batch, double h);
   void solveContactPositions(Model& w, Batch& batch, const JointStage& stage);
   void takeTurns(Model& w, Batch& batch, const JointStage& stage);
   bool limitGuess(Model& w, Batch& batch);
