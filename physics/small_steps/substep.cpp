@@ -275,8 +275,8 @@ void SmallSteps::Impl::solvePositions(Model& w, Batch& batch, double h) {
                             batch.touches ? std::span<const Vec3>() : meanSpins};
   const int count = static_cast<int>(batch.blocks.size());
   profileScope("direct");
-  constexpr double kAny = std::numeric_limits<double>::infinity();
-  const double most = w.settings.maxCorrectionSpeed ? h * *w.settings.maxCorrectionSpeed : kAny;
+  const double most =
+      h * w.settings.maxCorrectionSpeed.value_or(std::numeric_limits<double>::infinity());
   batch.joints.leave(stage, most, 1 - closingShare(w, islands[batch.bodies.front()]));
   if (count > 0 && batch.takesTurns()) {
     takeTurns(w, batch, stage);

@@ -186,10 +186,11 @@ bool JointPack<W>::givesWay(int i, int l) const {
 // than `most` [m, rad] at a time, and this part of those of limits not at all.
 template <int W>
 void JointPack<W>::leave(const JointStage& stage, double most, double ofLimits) {
-  const auto mayLeave = [&](const JointShape& shape) {
-    return std::isfinite(most) || (isLimit(shape) && ofLimits > 0);
-  };
-  if (std::none_of(topology_->shapes.begin(), topology_->shapes.end(), mayLeave)) return;
+  const auto isOne = [](const JointShape& shape) { return isLimit(shape); };
+  const bool some =
+      std::isfinite(most) ||
+      (ofLimits > 0 && std::any_of(topology_->shapes.begin(), topology_->shapes.end(), isOne));
+  if (!some) return;
   seeGaps(stage);
   jointKernels<W>().seeLimits(view(), true);
   seeOthers(stage, true, false);
@@ -205,7 +206,7 @@ void JointPack<W>::leave(const JointStage& stage, double most, double ofLimits) 
           speaks && (isGap || clamped(topology_->shapes[i], rows_[i], l, -c) != Vec3::Zero());
       const double ofThis = isLimit(topology_->shapes[i]) ? ofLimits : 0;
       const double part = holds && error > 0 ? std::max(1 - most / error, ofThis) : 0;
-      write(rows_[i].left, l, (std::max(part, 0.0) * c).eval());
+      write(rows_[i].left, l, (part * c).eval());
     }
   }
 }

@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "physics/accurate/extrapolation.h"
 #include "physics/base/rotation.h"
 #include "physics/make/stack.h"
 #include "physics/world.h"
 #include "physics/world/measure.h"
+#include "tests/physics/dice.h"
 #include "tests/physics/gravity.h"
 #include "tests/physics/stage.h"
 
@@ -580,22 +580,15 @@ TEST(Accuracy, RemembersWhichStepsFail) {
 // no force that lasts. As one it made eight times their energy in a frame; 0.3 % are what is left.
 TEST(Accuracy, OfJointedBoxesThatTumbleGainsNoEnergy) {
   for (int seed = 0; seed < 120; ++seed) {
-    std::mt19937 random(seed);
-    const auto within = [&](double size) {
-      return size * (random() / 2147483648.0 - 1);  // the same numbers everywhere
-    };
-    const auto anywhere = [&](double size) {
-      const double x = within(size), y = within(size);
-      return Vec3(x, y, within(size));
-    };
+    testing::Dice dice(seed);
     World world = onFloor(1e-3, 1);
     BallSocketDef joint;
     for (int k = 0; k < 2; ++k) {
       BodyDef box;
-      box.shape = Box{Vec3(0.4, 0.4, 0.4) + anywhere(0.2)};
+      box.shape = Box{Vec3(0.4, 0.4, 0.4) + dice.anywhere(0.2)};
       box.mass = 2;
-      box.pose = {Vec3(0, 0.8 + 0.5 * k, 0) + anywhere(0.4), exponential(anywhere(3))};
-      box.velocity = {anywhere(4), anywhere(5)};
+      box.pose = {Vec3(0, 0.8 + 0.5 * k, 0) + dice.anywhere(0.4), exponential(dice.anywhere(3))};
+      box.velocity = {dice.anywhere(4), dice.anywhere(5)};
       joint.bodies[k] = world.add(box);
       joint.at += 0.5 * box.pose.x;
     }
