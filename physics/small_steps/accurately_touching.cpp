@@ -32,6 +32,9 @@ constexpr double kAgreed = 0.1;
 // Of its size: what is off by as much, a picture shows elsewhere. It goes on by the default's
 // steps.
 constexpr double kLost = 0.1;
+// What the speeds of one row are off by, those of the next are too: over as many steps as may err
+// by what is asked, 1 / kShareOfFrame, each comes to half as many of its ways.
+constexpr double kGathers = 0.5 / kShareOfFrame;
 
 bool slides(const KeptContact& c, double along, double normal) {
   constexpr double kOnCone = 1 - 1e-5;  // but for single precision
@@ -309,17 +312,18 @@ double SmallSteps::Impl::errorOfOneRow(const Model& w, const Trial& trial) const
     const Velocity& before = accelerated[batch.bodies[k]];
     most = std::max(most, (now.v - before.v).norm() + trial.levers[k] * (now.w - before.w).norm());
   }
-  return oneRowErrs[batch.bodies.front()] + dt * dt * most / trial.extent;
+  const double errs = oneRowErrs[batch.bodies.front()];
+  return errs + (errs > kKnown ? kGathers : 1) * dt * dt * most / trial.extent;
 }
 
 // What moves by less than a step may err by errs by less, whatever its substeps; and where one row
-// errs by less than contacts know, further ones tell nothing. Contacts are to stand where they
+// is known to, no further one is needed. Contacts are to stand where they
 // touch, or the row's substeps tell how deep they are: unless they carry next to nothing.
 bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
   if (trial.needsMore) return false;
   const Batch& batch = batches[trial.batch];
-  const bool isExact = oneRowErrs[batch.bodies.front()] <= kKnown;
-  if (!isExact && !(wayOf(w, trial) <= trial.allowed)) return false;
+  const bool isKnown = oneRowErrs[batch.bodies.front()] <= trial.allowed;
+  if (!isKnown && !(wayOf(w, trial) <= trial.allowed)) return false;
   const auto stands = [&](int contact) {
     const KeptContact& c = contacts[contact];
     if (c.isHeld()) return true;
@@ -343,7 +347,11 @@ void SmallSteps::Impl::noteMotion(const Model& w, const Trial& trial) {
     errs = std::numeric_limits<double>::infinity();
   } else {  // it goes with h
     const double dt = w.settings.dt, times = dt / trial.whole;
-    errs = times * times * trial.steps * trial.tableau.gain(trial.extent, dt, trial.levers);
+    const auto gain = [&](double time) {
+      return times * times * trial.steps * trial.tableau.gain(trial.extent, time, trial.levers);
+    };
+    errs = gain(dt);
+    if (errs > kKnown) errs = gain(kGathers * dt);
   }
 }
 
@@ -542,8 +550,7 @@ bool SmallSteps::Impl::goesOn(const Model& w, Trial& trial) {
   if (trial.isOneRow) {
     const double way = wayOf(w, trial);
     trial.oneRowErrs = errorOfOneRow(w, trial);
-    const bool isExact = trial.oneRowErrs <= kKnown;
-    trial.error = isExact ? std::min(trial.oneRowErrs, way) : way;
+    trial.error = std::min(trial.oneRowErrs, way);
     trial.isOneRow = trial.error <= trial.allowed;
     trial.needsMore = !trial.isOneRow;
   } else if (trial.isLost) {
