@@ -442,6 +442,35 @@ TEST(Accuracy, OneRowIsEnoughWhereItWasBefore) {
   EXPECT_NEAR(b.pose[rests].x.x() - b.pose[slides].x.x(), 0.4, 1e-3);
 }
 
+// A ball that is pushed and rolls: one row of one substep puts it too far by half of a dt^2 in
+// every step, 2e-4 m, which a step may err by as 1e-1 is asked, and not as 1e-4 is.
+TEST(Accuracy, OneRowIsEnoughWhereItErrsByLessThanAStepMay) {
+  constexpr double push = 2, radius = 0.5, acceleration = push / 1.4, seconds = 1;
+  const auto roll = [&](double accuracy) {
+    World world = onFloor(accuracy, 0.5);
+    BodyDef ball;
+    ball.shape = Sphere{radius};
+    ball.pose.x = Vec3(0, radius, 0);
+    const BodyId body = world.add(ball);
+    ForceDef force;
+    force.bodies = {body};
+    force.force = Vec3(push, 0, 0);
+    world.add(force);
+    AccuracyReport later;
+    after(world, seconds / 2);
+    after(world, seconds / 2, &later);
+    const double x = world.bodies().pose[body].x.x();
+    return std::pair(later.order, std::abs(x - acceleration * seconds * seconds / 2));
+  };
+  const auto [coarse, far] = roll(1e-1);
+  EXPECT_EQ(coarse, 1);
+  EXPECT_LT(far, 1e-1);
+  EXPECT_GT(far, 1e-4);
+  const auto [fine, near] = roll(1e-4);
+  EXPECT_GT(fine, 1);
+  EXPECT_LT(near, 1e-4);
+}
+
 // Friction and a constant force are as in a textbook. Rounded to the single precision of the lanes,
 // 10 m/s would lose some 1e-4 m/s of its own in half a second.
 TEST(Accuracy, KeepsTheMomentumOfWhatSlidesFast) {
