@@ -33,7 +33,9 @@ constexpr double kAgreed = 0.1;
 // steps.
 constexpr double kLost = 0.1;
 // What the speeds of one row are off by, those of the next are too: over as many steps as may err
-// by what is asked, 1 / kShareOfFrame, each comes to half as many of its ways.
+// by what is asked, 1 / kShareOfFrame, each comes to half as many of its ways. Without, 25 balls on
+// a pushed box are off by 2.5e-4 by 1e-3, not by 1.1e-4. Of what contacts do not know speeds tell
+// nothing.
 constexpr double kGathers = 0.5 / kShareOfFrame;
 
 bool slides(const KeptContact& c, double along, double normal) {
@@ -317,8 +319,8 @@ double SmallSteps::Impl::errorOfOneRow(const Model& w, const Trial& trial) const
 }
 
 // What moves by less than a step may err by errs by less, whatever its substeps; and where one row
-// is known to, no further one is needed. Contacts are to stand where they
-// touch, or the row's substeps tell how deep they are: unless they carry next to nothing.
+// is known to, no further one is needed. Contacts are to stand where they touch, or the row's
+// substeps tell how deep they are: unless they carry next to nothing.
 bool SmallSteps::Impl::mayTakeOneRow(const Model& w, const Trial& trial) const {
   if (trial.needsMore) return false;
   const Batch& batch = batches[trial.batch];
