@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "physics/base/sorted.h"
 #include "physics/collision/pairs.h"
 #include "physics/collision/triangle_tree.h"
 
@@ -14,17 +15,6 @@ std::size_t bytesOf(const std::vector<T>& list) {
 }
 
 bool byItems(const Watch& p, const Watch& q) { return p.items() < q.items(); }
-
-// Moves what `leaves` from one sorted list to another.
-template <class F>
-void carry(std::vector<Watch>& from, std::vector<Watch>& to, F&& leaves) {
-  const auto stays = [&](const Watch& watch) { return !leaves(watch); };
-  const auto gone = std::stable_partition(from.begin(), from.end(), stays);
-  const auto middle = static_cast<std::ptrdiff_t>(to.size());
-  to.insert(to.end(), gone, from.end());
-  from.erase(gone, from.end());
-  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byItems);
-}
 
 }  // namespace
 
@@ -40,7 +30,7 @@ void Pairs::rest(std::span<const BodyId> bodies, std::span<const Pose> poses) {
     }
   }
   std::erase_if(moving_, [&](int i) { return items_[i].rests; });
-  carry(watches_, parked_, [&](const Watch& watch) { return bothRest(watch); });
+  carry(watches_, parked_, byItems, [&](const Watch& watch) { return bothRest(watch); });
 }
 
 void Pairs::wake(std::span<const BodyId> bodies) {
@@ -58,7 +48,7 @@ void Pairs::wake(std::span<const BodyId> bodies) {
   }
   std::inplace_merge(moving_.begin(), moving_.begin() + middle, moving_.end());
   std::erase_if(late_, [&](int i) { return !items_[i].rests; });
-  carry(parked_, watches_, [&](const Watch& watch) { return !bothRest(watch); });
+  carry(parked_, watches_, byItems, [&](const Watch& watch) { return !bothRest(watch); });
 }
 
 // Of the pairs that there are, how many are ignored? Points never touch one another, nor do the

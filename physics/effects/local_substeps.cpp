@@ -176,12 +176,13 @@ void leaveGroups(WorldState& w) {
   if (w.local.groups.empty()) return;
   w.contacts.pairs.clear();
   w.softContacts.clear();
+  std::vector<const ContactPair*> together;
   for (Group& group : w.local.groups) {
-    for (const ContactPair& pair : group.contacts) w.contacts.pairs.push_back(pair);
+    for (const ContactPair& pair : group.contacts) together.push_back(&pair);
     for (const SoftContact& contact : group.softContacts) w.softContacts.push_back(contact);
   }
-  std::sort(w.contacts.pairs.begin(), w.contacts.pairs.end(),
-            [](const auto& p, const auto& q) { return p.key < q.key; });
+  std::sort(together.begin(), together.end(), [](auto* p, auto* q) { return p->key < q->key; });
+  for (const ContactPair* pair : together) w.contacts.pairs.push_back(*pair);
 }
 
 }  // namespace physics

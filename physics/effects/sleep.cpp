@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "physics/base/sorted.h"
 #include "physics/model/factors.h"
 #include "physics/model/islands.h"
 #include "physics/motion/second_order.h"
@@ -76,21 +77,7 @@ void stop(WorldState& w, BodyId i) {
   forgetPast(b.second, i);
 }
 
-template <class Pair>
-bool byKey(const Pair& p, const Pair& q) {
-  return p.key < q.key;
-}
-
-// Contact pairs that `leave` from one sorted list to another.
-template <class Pair, class F>
-void carry(std::vector<Pair>& from, std::vector<Pair>& to, F&& leaves) {
-  const auto stays = [&](const Pair& pair) { return !leaves(pair); };
-  const auto gone = std::stable_partition(from.begin(), from.end(), stays);
-  const auto middle = static_cast<std::ptrdiff_t>(to.size());
-  to.insert(to.end(), gone, from.end());
-  from.erase(gone, from.end());
-  std::inplace_merge(to.begin(), to.begin() + middle, to.end(), byKey<Pair>);
-}
+constexpr auto byKey = [](const auto& p, const auto& q) { return p.key < q.key; };
 
 template <class Pair>
 bool isAsleep(const WorldState& w, const Pair& pair) {
@@ -156,8 +143,8 @@ void fallAsleep(WorldState& w, StepReport& report) {
     if (!resting.empty()) {
       if (w.touches) w.collider.rest(resting, w.bodies.pose);
       const auto sleeps = [&](const auto& pair) { return isAsleep(w, pair); };
-      carry(w.contacts.pairs, w.sleep.contacts, sleeps);
-      carry(w.small.contacts(), w.small.sleeping, sleeps);
+      carry(w.contacts.pairs, w.sleep.contacts, byKey, sleeps);
+      carry(w.small.contacts(), w.small.sleeping, byKey, sleeps);
       std::erase_if(w.softContacts, [&](const SoftContact& c) {
         return w.sleep.asleep[moverOf(w.bodies, c.from, c.to)] != 0;
       });
@@ -180,8 +167,8 @@ void wakeCalled(WorldState& w) {
   w.sleep.count -= static_cast<int>(woken.size());
   if (w.touches) w.collider.wake(woken);
   const auto isAwake = [&](const auto& pair) { return !isAsleep(w, pair); };
-  carry(w.sleep.contacts, w.contacts.pairs, isAwake);
-  carry(w.small.sleeping, w.small.contacts(), isAwake);
+  carry(w.sleep.contacts, w.contacts.pairs, byKey, isAwake);
+  carry(w.small.sleeping, w.small.contacts(), byKey, isAwake);
   listAwake(w);
 }
 
