@@ -32,6 +32,8 @@ struct PeerJoint {
   std::optional<PeerCone> cone;                 // of a ball
 };
 
+constexpr double kPointRadius = 1e-6;  // m, where points may touch
+
 struct Blueprint {
   PeerState start;
   std::vector<PeerJoint> joints;

@@ -136,7 +136,7 @@ PeerOffer bulletOffer() {
       "from velocities, "
       "springs as explicit forces";
   const int iterations = btContactSolverInfo().m_numIterations;
-  PeerOffer offer{{"Bullet", DBD_PEER_VERSION ", double precision", "libbullet-dev"}, {}};
+  PeerOffer offer{{"Bullet", DBD_BULLET_VERSION ", double precision", "libbullet-dev"}, {}};
   const auto add = [&](const char* name, const char* title, const char* note, int count,
                        auto start) {
     offer.entries.push_back({{name, title, "Bullet", note + setup, count}, start});

@@ -13,8 +13,7 @@ namespace {
 using physics::BodyId;
 using physics::Vec3;
 
-constexpr double kPointRadius = 1e-6;  // m, where points may touch
-constexpr double kHullMargin = 1e-3;   // m: Bullet's own of 4 cm lies outside of a hull
+constexpr double kHullMargin = 1e-3;  // m: Bullet's own of 4 cm lies outside of a hull
 
 struct ShapeMaker {
   using Made = std::unique_ptr<btCollisionShape>;

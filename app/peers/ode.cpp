@@ -14,7 +14,6 @@ using physics::BodyId;
 using physics::Quat;
 using physics::Vec3;
 
-constexpr double kPointRadius = 1e-6;  // m, where points may touch
 const Quat kZToY(std::sqrt(0.5), -std::sqrt(0.5), 0,
                  0);  // ODE's capsules and cylinders lie along z
 
@@ -266,7 +265,7 @@ PeerOffer odeOffer() {
                     "dWorldStep: one linear complementarity problem" + setup, 0};
   PeerMethod quick{"ode_quick", "ODE, iterative", "ODE", "dWorldQuickStep: projected SOR" + setup,
                    20};
-  return {{"ODE", DBD_PEER_VERSION ", double precision", "libode-dev"},
+  return {{"ODE", DBD_ODE_VERSION ", double precision", "libode-dev"},
           {{direct, startOde}, {quick, startOde}}};
 }
 
