@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -10,10 +11,11 @@ namespace physics {
 // Carries what `leaves` from one list to another, both sorted by `isBefore`.
 template <class T, class Order, class F>
 void carry(std::vector<T>& from, std::vector<T>& to, Order&& isBefore, F&& leaves) {
-  if (std::none_of(from.begin(), from.end(), leaves)) return;
+  const auto leaving = static_cast<std::size_t>(std::count_if(from.begin(), from.end(), leaves));
+  if (leaving == 0) return;
   std::vector<T> stayed, joined;
   stayed.reserve(from.capacity());
-  joined.reserve(std::max(to.capacity(), from.size() + to.size()));
+  joined.reserve(std::max(to.capacity(), to.size() + leaving));
   auto next = to.begin();
   for (const T& item : from) {
     if (!leaves(item)) {
