@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "physics/base/archive.h"
 
@@ -65,7 +64,7 @@ std::string trajectoryRows(const scenes::Simulation& of, int frame,
                              velocity.w.z()};
     rows += start;
     rows += csvText(of.bodyName(body));
-    for (const double value : values) fmt::format_to(std::back_inserter(rows), ",{:.17g}", value);
+    for (const double value : values) rows += fmt::format(",{:.17g}", value);
     rows += '\n';
   }
   return rows;

@@ -10,6 +10,7 @@
 
 #include "app/base/shell.h"
 #include "app/run/recorded_run.h"
+#include "app/take/take_files.h"
 
 namespace app {
 
@@ -123,6 +124,17 @@ void addOutput(CLI::App& command, CommonOptions& options, const std::string& fol
 
 void addHash(CLI::App& command, CommonOptions& options) {
   command.add_flag("--hash", options.hash, "Print the hash of the last state as the last line");
+}
+
+void addTake(CLI::App& command, TakeOptions& options) {
+  command
+      .add_option("--player", options.player,
+                  "A page that plays the motion in 3D in any browser, from disk, all in one file")
+      ->type_name("F.html");
+  command
+      .add_option("--gltf", options.gltf,
+                  "The motion as glTF 2.0 with animation, for Blender and other programs")
+      ->type_name("F.glb|F.gltf");
 }
 
 }  // namespace app

@@ -17,6 +17,8 @@ class Option;
 
 namespace app {
 
+struct TakeOptions;
+
 using Action = std::function<ExitCode()>;  // what the chosen command does
 
 struct CommonOptions {
@@ -55,5 +57,6 @@ void addOutput(CLI::App& command, CommonOptions& options, const std::string& fol
 void addOverrides(CLI::App& command, CommonOptions& options);  // --set
 void addCommon(CLI::App& command, CommonOptions& options);     // these and --set
 void addHash(CLI::App& command, CommonOptions& options);
+void addTake(CLI::App& command, TakeOptions& options);  // --player --gltf
 
 }  // namespace app

@@ -295,7 +295,7 @@ void addRender(CLI::App& line, Action& action) {
       ->type_name("F.npz");
   command->add_flag("--video", options->video, "Also make DIR/NAME.mp4");
   addViewOptions(*command, *options);
-  addTakeOptions(*command, options->take);
+  addTake(*command, options->take);
   CLI::Option* resume = command->add_flag(
       "--resume", options->resume,
       "Keep the frames of an earlier, same run; refuse those of another (the default)");

@@ -240,7 +240,7 @@ void addSimulate(CLI::App& line, Action& action) {
       ->type_name("F.png");
   command->add_flag("--fresh", options->fresh,
                     "With --motion: begin anew where a run was stopped, instead of going on");
-  addTakeOptions(*command, options->take);
+  addTake(*command, options->take);
   addCommon(*command, options->common);
   addHash(*command, options->common);
   command->callback([options, &action] { action = [options] { return simulate(*options); }; });

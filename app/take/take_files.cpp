@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "app/base/console.h"
 #include "app/take/gltf.h"
 #include "app/take/player.h"
@@ -20,17 +18,6 @@ void requireEnding(const char* option, const std::string& file, bool isRight, co
 }
 
 }  // namespace
-
-void addTakeOptions(CLI::App& command, TakeOptions& options) {
-  command
-      .add_option("--player", options.player,
-                  "A page that plays the motion in 3D in any browser, from disk, all in one file")
-      ->type_name("F.html");
-  command
-      .add_option("--gltf", options.gltf,
-                  "The motion as glTF 2.0 with animation, for Blender and other programs")
-      ->type_name("F.glb|F.gltf");
-}
 
 TakeFiles::TakeFiles(const TakeOptions& options, const scenes::Simulation& start, int frames)
     : options_(options) {

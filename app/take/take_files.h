@@ -8,18 +8,12 @@
 #include "app/base/output_file.h"
 #include "app/run/motion.h"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace app {
 
 struct TakeOptions {
   std::string player, gltf;  // empty: none
   bool any() const { return !player.empty() || !gltf.empty(); }
 };
-
-void addTakeOptions(CLI::App& command, TakeOptions& options);
 
 class TakeFiles {
  public:

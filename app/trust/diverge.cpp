@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "app/base/csv.h"
 #include "app/base/numbers.h"
@@ -151,8 +150,8 @@ std::string divergeCsv(const RunSource& a, const Divergence& d) {
   std::string table = "frame,time,body,distance\n";
   for (std::size_t f = 0; f < d.differences.size(); ++f) {
     const FrameDifference& difference = d.differences[f];
-    fmt::format_to(std::back_inserter(table), "{},{:.17g},{},{:.9g}\n", f, difference.time,
-                   csvText(a.track->names[difference.body]), difference.distance);
+    table += fmt::format("{},{:.17g},{},{:.9g}\n", f, difference.time,
+                         csvText(a.track->names[difference.body]), difference.distance);
   }
   return table;
 }

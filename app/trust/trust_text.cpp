@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "app/base/csv.h"
 #include "app/base/numbers.h"
@@ -145,9 +144,9 @@ std::string trustCsv(const Trust& trust) {
                                           : apart(trust.track.frames[f].poses[followed],
                                                   trust.finer.frames[f].poses[followed],
                                                   trust.allowed[followed].radius);
-    fmt::format_to(std::back_inserter(table), "{},{:.17g},{},{:.9g},{:.9g},{:.9g},{},{:.9g}\n", f,
-                   d.time, csvText(nameOf(trust, d.body)), d.distance, d.allowed, d.ratio(),
-                   d.beyond, distance);
+    table += fmt::format("{},{:.17g},{},{:.9g},{:.9g},{:.9g},{},{:.9g}\n", f, d.time,
+                         csvText(nameOf(trust, d.body)), d.distance, d.allowed, d.ratio(), d.beyond,
+                         distance);
   }
   return table;
 }

@@ -2,20 +2,29 @@
 #include "physics/kinematics/pseudo_inverse.h"
 
 #include <Eigen/SVD>
+#include <algorithm>
 
 namespace physics {
 
 Eigen::MatrixXd pseudoInverse(const Eigen::MatrixXd& a, double cutoff) {
-  if (a.size() == 0) return Eigen::MatrixXd::Zero(a.cols(), a.rows());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const double least = cutoff * svd.singularValues()[0];
-  const Eigen::VectorXd inverse = svd.singularValues().unaryExpr(
-      [least](double sigma) { return sigma > least ? 1 / sigma : 0.0; });
-  return svd.matrixV() * inverse.asDiagonal() * svd.matrixU().transpose();
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(a.cols(), a.rows());
+  if (a.size() == 0) return inverse;
+  // Made square by zeros, which have the singular value 0: nothing is to be decomposed before.
+  const Eigen::Index side = std::max(a.rows(), a.cols());
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(side, side);
+  square.topLeftCorner(a.rows(), a.cols()) = a;
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(
+      square, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::VectorXd& sigma = svd.singularValues();
+  for (Eigen::Index k = 0; k < side && sigma[k] > cutoff * sigma[0]; ++k) {
+    inverse += svd.matrixV().col(k).head(a.cols()) / sigma[k] *
+               svd.matrixU().col(k).head(a.rows()).transpose();
+  }
+  return inverse;
 }
 
 Eigen::VectorXd leastMultipliers(const Eigen::MatrixXd& j, const Eigen::VectorXd& c) {
-  return -pseudoInverse(j * j.transpose()) * c;
+  return -pseudoInverse(j.lazyProduct(j.transpose())) * c;
 }
 
 Eigen::VectorXd leastStep(const Eigen::MatrixXd& j, const Eigen::VectorXd& c) {

@@ -74,7 +74,10 @@ Vec4 impulsesOf(Meeting& meeting, const Vec4& missing) {
     }
     Mat4 gives = set.in.asDiagonal() * meeting.gives * set.in.asDiagonal();
     gives.diagonal() += Vec4::Ones() - set.in;
-    set.inverse = set.in.asDiagonal() * gives.ldlt().solve(Mat4(set.in.asDiagonal()));
+    const Eigen::LDLT<Mat4> factor(gives);
+    for (int k = 0; k < 4; ++k) {
+      set.inverse.col(k) = set.in.cwiseProduct(factor.solve(Vec4(set.in[k] * Vec4::Unit(k))));
+    }
     const double wrong = wrongBy(meeting, set, missing, impulses);
     if (!(wrong < least)) continue;
     least = wrong;
