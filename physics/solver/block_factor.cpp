@@ -14,7 +14,7 @@ void invertLower(const PaddedBlock<N>& a, PaddedBlock<N>& inverse) {
   double l[N][N], x[N][N];
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j <= i; ++j) {
-      double sum = a.matrix()(i, j);
+      double sum = matrixOf(a)(i, j);
       for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
       l[i][j] = j < i ? sum * x[j][j] : 0;
       if (j == i) x[i][i] = 1 / std::sqrt(sum);
@@ -26,7 +26,7 @@ void invertLower(const PaddedBlock<N>& a, PaddedBlock<N>& inverse) {
       for (int k = j + 1; k < i; ++k) sum += l[i][k] * x[k][j];
       x[i][j] = -sum * x[i][i];
     }
-    for (int i = 0; i < N; ++i) inverse.matrix()(i, j) = i < j ? 0 : x[i][j];
+    for (int i = 0; i < N; ++i) matrixOf(inverse)(i, j) = i < j ? 0 : x[i][j];
   }
 }
 
@@ -92,9 +92,9 @@ template <int N>
 void BlockFactor<N>::give(const Matrix& block) {
   const std::size_t entry = next_++;
   if (isTurned(entry)) {
-    value(entry).matrix() += block.transpose();
+    matrixOf(value(entry)) += block.transpose();
   } else {
-    value(entry).matrix() += block;
+    matrixOf(value(entry)) += block;
   }
 }
 
@@ -121,7 +121,7 @@ void BlockFactor<N>::factorize() {
       row_[i] = {};
       for (double& entry : block.of) entry = -entry;
       PaddedBlock<N>& lower = lower_[pattern_.append(i, k)];
-      lower.matrix() = block.matrix().transpose();
+      matrixOf(lower) = matrixOf(block).transpose();
       subtractProducts(row_.data(), lower_.data() + start, pattern_.rowsFrom(start), count, block);
       subtractProducts(&row_[k], &lower, &first, 1, block);
     }
@@ -136,16 +136,16 @@ void BlockFactor<N>::substitute(std::span<X> x, std::vector<X>& solved) const {
   solved.resize(size());
   for (int i = 0; i < size(); ++i) solved[pattern_.placeOf(i)] = x[i];
   for (int k = 0; k < size(); ++k) {
-    solved[k] = product<N>(inverse_[k].matrix(), solved[k]);
+    solved[k] = product<N>(matrixOf(inverse_[k]), solved[k]);
     for (int p = pattern_.start(k); p < pattern_.end(k); ++p) {
-      subtract<N>(solved[pattern_.rowAt(p)], lower_[p].matrix(), solved[k]);
+      subtract<N>(solved[pattern_.rowAt(p)], matrixOf(lower_[p]), solved[k]);
     }
   }
   for (int k = size(); k-- > 0;) {
     for (int p = pattern_.start(k); p < pattern_.end(k); ++p) {
-      subtract<N>(solved[k], lower_[p].matrix().transpose(), solved[pattern_.rowAt(p)]);
+      subtract<N>(solved[k], matrixOf(lower_[p]).transpose(), solved[pattern_.rowAt(p)]);
     }
-    solved[k] = product<N>(inverse_[k].matrix().transpose(), solved[k]);
+    solved[k] = product<N>(matrixOf(inverse_[k]).transpose(), solved[k]);
   }
   for (int i = 0; i < size(); ++i) x[i] = solved[pattern_.placeOf(i)];
 }

@@ -5,32 +5,23 @@
 #pragma once
 
 #include "physics/base/types.h"
+#include "physics/solver/padded_block.h"
 #include "physics/solver/sparse_pattern.h"
 
 namespace physics {
 
-// By columns, which begin at whole registers of four numbers: zero beyond N.
 template <int N>
-struct alignas(32) PaddedBlock {
-  static constexpr int kStride = (N + 3) / 4 * 4;
-  using Matrix = Eigen::Matrix<double, N, N>;
-  static constexpr int kSize = N * kStride;
-  double of[kSize] = {};
-  auto matrix() { return Eigen::Map<Matrix, Eigen::Aligned32, Eigen::OuterStride<kStride>>(of); }
-  auto matrix() const {
-    return Eigen::Map<const Matrix, Eigen::Aligned32, Eigen::OuterStride<kStride>>(of);
-  }
-};
-
-// row[at[p]] -= lower[p] block
+auto matrixOf(PaddedBlock<N>& block) {
+  constexpr int kStride = PaddedBlock<N>::kStride;
+  return Eigen::Map<Eigen::Matrix<double, N, N>, Eigen::Aligned32, Eigen::OuterStride<kStride>>(
+      block.of);
+}
 template <int N>
-using SubtractProducts = void (*)(PaddedBlock<N>* row, const PaddedBlock<N>* lower, const int* at,
-                                  int count, const PaddedBlock<N>& block);
-struct BlockKernels {
-  SubtractProducts<3> three;
-  SubtractProducts<6> six;
-};
-extern const BlockKernels kBlockKernelsSse2, kBlockKernelsAvx2;
+auto matrixOf(const PaddedBlock<N>& block) {
+  constexpr int kStride = PaddedBlock<N>::kStride;
+  return Eigen::Map<const Eigen::Matrix<double, N, N>, Eigen::Aligned32,
+                    Eigen::OuterStride<kStride>>(block.of);
+}
 
 template <int N>
 class BlockFactor {

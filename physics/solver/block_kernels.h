@@ -2,7 +2,7 @@
 // by block_sse2.cpp and block_avx2.cpp alone. Both give the same bytes.
 #include <cstring>
 
-#include "physics/solver/block_factor.h"
+#include "physics/solver/padded_block.h"
 
 namespace physics {
 namespace {

@@ -174,7 +174,7 @@ Mat3 ContactNewton::stiffnessOf(const Joint& j) const {
 template <class J, class K>
 void ContactNewton::add(const Pair& pair, const J& ofA, const J& ofB, const K& kA, const K& kB) {
   const auto addTo = [&](int entry, const J& left, const K& right) {
-    factor_.value(entry).matrix().noalias() += left.transpose().lazyProduct(right);
+    matrixOf(factor_.value(entry)).noalias() += left.transpose().lazyProduct(right);
   };
   const int a = places_[pair.a], b = places_[pair.b];
   if (a >= 0) addTo(a, ofA, kA);
@@ -195,7 +195,7 @@ void ContactNewton::holdJoints() {
   std::fill(pulls_.begin(), pulls_.end(), Six::Zero());
   for (std::size_t s = 1; s < places_.size(); ++s) {
     if (places_[s] < 0) continue;
-    auto own = factor_.value(places_[s]).matrix();
+    auto own = matrixOf(factor_.value(places_[s]));
     own.diagonal().head<3>().array() += 1 / inverse_[s];
     own.diagonal().tail<3>().array() += 1;
   }

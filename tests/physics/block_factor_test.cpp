@@ -79,7 +79,7 @@ void compareWideProducts(SubtractProducts<N> sse2, SubtractProducts<N> avx2) {
   std::uniform_real_distribution<double> spread(-1, 1);
   const auto any = [&] {
     Padded block;
-    for (int k = 0; k < N * N; ++k) block.matrix()(k / N, k % N) = spread(random);
+    for (int k = 0; k < N * N; ++k) matrixOf(block)(k / N, k % N) = spread(random);
     return block;
   };
   constexpr double kRounding = 1e-15 * (N * N / 9);  // of N^2 numbers, each a sum of N products
@@ -93,8 +93,9 @@ void compareWideProducts(SubtractProducts<N> sse2, SubtractProducts<N> avx2) {
   sse2(narrow.data(), lower.data(), at.data(), kCount, block);
   EXPECT_EQ(0, std::memcmp(wide.data(), narrow.data(), sizeof wide));
   for (int k = 0; k < kCount; ++k) {
-    const typename Padded::Matrix wanted = row[at[k]].matrix() - lower[k].matrix() * block.matrix();
-    EXPECT_LT((wide[at[k]].matrix() - wanted).norm(), kRounding) << k;
+    const Eigen::Matrix<double, N, N> wanted =
+        matrixOf(row[at[k]]) - matrixOf(lower[k]) * matrixOf(block);
+    EXPECT_LT((matrixOf(wide[at[k]]) - wanted).norm(), kRounding) << k;
   }
 }
 
