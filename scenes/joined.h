@@ -1,8 +1,9 @@
-// Lists of words as text.
+// Lists of words and of whole numbers as text.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace scenes {
 
@@ -13,7 +14,11 @@ std::string joined(const Words& words, std::string_view between) {
   std::string_view before;
   for (const auto& word : words) {
     text += before;
-    text += word;
+    if constexpr (std::is_integral_v<std::decay_t<decltype(word)>>) {
+      text += std::to_string(word);
+    } else {
+      text += word;
+    }
     before = between;
   }
   return text;

@@ -7,8 +7,6 @@ std::string jsonText(const Json& json, int indent, bool ascii) {
 }
 
 Json parseJson(const std::string& text) { return Json::parse(text); }
-Json parseJson(std::istream& stream) { return Json::parse(stream); }
 Json tryParseJson(const std::string& text) { return Json::parse(text, nullptr, false); }
-Json tryParseJson(std::istream& stream) { return Json::parse(stream, nullptr, false); }
 
 }  // namespace app

@@ -1,7 +1,6 @@
 // JSON to text and back. The library's parser and writer are large: compiled here, once.
 #pragma once
 
-#include <istream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -15,10 +14,8 @@ std::string jsonText(const Json& json, int indent = -1, bool ascii = false);
 
 // Throws Json::parse_error.
 Json parseJson(const std::string& text);
-Json parseJson(std::istream& stream);
 
 // Json::is_discarded() where the text is no JSON.
 Json tryParseJson(const std::string& text);
-Json tryParseJson(std::istream& stream);
 
 }  // namespace app

@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <libdeflate.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -17,6 +16,7 @@
 #include "app/base/output_file.h"
 #include "app/commands/exit_code.h"
 #include "physics/base/archive.h"
+#include "scenes/joined.h"
 
 namespace app {
 
@@ -32,7 +32,7 @@ std::uint64_t itemBytes(const std::string& type) {
 
 // "(300, 211, 7)", "(300,)", "()"
 std::string shapeText(const std::vector<std::uint64_t>& shape) {
-  return fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+  return fmt::format("({}{})", scenes::joined(shape, ", "), shape.size() == 1 ? "," : "");
 }
 
 std::string arrayHead(const NpzArray& array, std::uint64_t rows) {

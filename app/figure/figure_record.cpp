@@ -1,10 +1,9 @@
 // Records of figures, to and from JSON.
 #include "app/figure/figure_record.h"
 
-#include <fstream>
-
 #include "app/base/build_info.h"
 #include "app/base/output_file.h"
+#include "scenes/read/file_text.h"
 #include "scenes/read/settings_reader.h"
 
 namespace app {
@@ -59,8 +58,7 @@ void addVerdict(const scenes::FigureVerdict& verdict, FigureRecord& record) {
 }
 
 std::optional<FigureRecord> readFigureRecord(const fs::path& file) {
-  std::ifstream stream(file);
-  const Json json = tryParseJson(stream);
+  const Json json = tryParseJson(scenes::fileText(file.string()).value_or(""));
   if (!json.is_object() || !json.contains("figure")) return std::nullopt;
   try {
     FigureRecord record;

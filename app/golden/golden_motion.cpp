@@ -107,7 +107,7 @@ std::string describeParting(const GoldenMotion& approved, const GoldenMotion& no
 Json toJson(const GoldenMotion& motion) {
   Json places = Json::array();
   for (const auto& [frame, numbers] : motion.places) {
-    places.push_back({{"frame", frame}, {"xyz", fmt::format("{}", fmt::join(numbers, " "))}});
+    places.push_back({{"frame", frame}, {"xyz", scenes::joined(numbers, " ")}});
   }
   Json json = {{"states", scenes::joined(motion.states, " ")},
                {"names", motion.names},

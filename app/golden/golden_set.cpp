@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "app/base/output_file.h"
 #include "app/run/open_renderer.h"
@@ -12,6 +11,7 @@
 #include "app/run/run_record.h"
 #include "render/picture_hash.h"
 #include "scenes/moment.h"
+#include "scenes/read/file_text.h"
 #include "scenes/view/view.h"
 
 namespace app {
@@ -124,8 +124,7 @@ GoldenRecord readGoldenRecord(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / kFile;
   if (!std::filesystem::exists(path)) return record;
   try {
-    std::ifstream file(path);
-    fillRecord(parseJson(file), record);
+    fillRecord(parseJson(scenes::fileText(path.string()).value_or("")), record);
   } catch (const Json::exception& error) {
     record = {};
     record.problem = fmt::format("{} cannot be read: {}", path.string(), error.what());

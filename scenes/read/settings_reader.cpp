@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scenes/joined.h"
 #include "scenes/measure/metrics.h"
 
 namespace scenes {
@@ -38,7 +39,7 @@ void tellUnused(const TableReader& reader, Scene& scene) {
   if (words.empty()) return;
   const bool isOne = words.size() == 1;
   scene.told.push_back(fmt::format("simulation: {} change{} nothing: {} does not look at {}",
-                                   fmt::join(words, ", "), isOne ? "s" : "", solverText(settings),
+                                   joined(words, ", "), isOne ? "s" : "", solverText(settings),
                                    isOne ? "it" : "them"));
 }
 
