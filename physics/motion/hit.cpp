@@ -74,6 +74,7 @@ Vec4 impulsesOf(Meeting& meeting, const Vec4& missing) {
     }
     Mat4 gives = set.in.asDiagonal() * meeting.gives * set.in.asDiagonal();
     gives.diagonal() += Vec4::Ones() - set.in;
+    // By columns: to solve for a matrix is compiled for any size, with blocked products.
     const Eigen::LDLT<Mat4> factor(gives);
     for (int k = 0; k < 4; ++k) {
       set.inverse.col(k) = set.in.cwiseProduct(factor.solve(Vec4(set.in[k] * Vec4::Unit(k))));

@@ -10,17 +10,15 @@
 
 namespace physics {
 
+template <int N, class Matrix>
+using BlockMap = Eigen::Map<Matrix, Eigen::Aligned32, Eigen::OuterStride<PaddedBlock<N>::kStride>>;
 template <int N>
 auto matrixOf(PaddedBlock<N>& block) {
-  constexpr int kStride = PaddedBlock<N>::kStride;
-  return Eigen::Map<Eigen::Matrix<double, N, N>, Eigen::Aligned32, Eigen::OuterStride<kStride>>(
-      block.of);
+  return BlockMap<N, Eigen::Matrix<double, N, N>>(block.of);
 }
 template <int N>
 auto matrixOf(const PaddedBlock<N>& block) {
-  constexpr int kStride = PaddedBlock<N>::kStride;
-  return Eigen::Map<const Eigen::Matrix<double, N, N>, Eigen::Aligned32,
-                    Eigen::OuterStride<kStride>>(block.of);
+  return BlockMap<N, const Eigen::Matrix<double, N, N>>(block.of);
 }
 
 template <int N>
