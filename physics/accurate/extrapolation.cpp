@@ -10,7 +10,8 @@
 namespace physics {
 namespace {
 
-// Joints are closed to this part of what a step may err by, for each of its parts.
+// Joints are closed to this part of what a step may err by, for each of its parts; a loop's to the
+// square of it, by the root of which bodies are off where rows depend on each other.
 constexpr double kClosed = 1e-3;
 constexpr double kFinest = 1e-14;               // of the size: no closer than numbers are
 constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one step
@@ -27,9 +28,11 @@ bool Extrapolation::run(int n, double from, double whole, const Surroundings& wo
                         const TrialPoses& trial) {
   const double h = whole / n;
   step_.restart();
+  jump_ = 0;
   for (int k = 0; k < n; ++k) {
     takeFactors(world.kinds, world.bodies, from + k * h, from + (k + 1) * h);
     if (!step_.step(h, tolerance_, world, trial)) return false;
+    jump_ = std::max(jump_, step_.jump());
   }
   row_ = step_.state();
   step_.takeMomenta(row_);
@@ -54,6 +57,7 @@ bool Extrapolation::fill(int first, int columns, double from, double whole,
     if (row == 0 || row + 2 < columns) continue;
     coarser_ = error_;
     error_ = tableau_.difference(step_.size(), std::max(whole, lasting_), step_.levers());
+    error_ = std::max(error_, jump_ / step_.size());  // all rows may agree on one
   }
   return true;
 }
@@ -95,7 +99,8 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     const StepChoice::Allowance allowed{inAll * (whole / time), 1,
                                         isTree ? rows.noise : kFinest * lasting_ * columns / whole,
                                         isTree ? 0 : 1};
-    const double closed = kClosed * allowed.most() / (columns * columns);
+    const double known = kClosed * allowed.most();
+    const double closed = step_.isLoop() ? known * known : known / (columns * columns);
     tolerance_ = step_.size() * std::max(kFinest, closed);
     const bool isDone = fill(rows.first, columns, from, whole, world, trial);
     const double step = whole / rows.reach;

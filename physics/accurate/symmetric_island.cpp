@@ -87,7 +87,7 @@ SymmetricStep::SymmetricStep(std::span<const JointRef> refs, std::span<const Bod
   isDamped_.assign(rows, false);
   present_.joints = RowSystem(topology_);
   all_ = RowSystem(topology_);
-  if (!topology_->isTree) across_ = CrossSystem(topology_);
+  if (isLoop()) across_ = CrossSystem(topology_);
   present_.rows.resize(rows);
   present_.pulls.resize(rows);
   present_.inverse.resize(size);

@@ -87,6 +87,12 @@ class SymmetricStep {
   // From where it is by h, joints closed to `tolerance` [m, rad]. False: they do not close, or a
   // limit is met.
   bool step(double h, double tolerance, const Surroundings& world, const TrialPoses& trial);
+  // Joints make a loop: its rows may depend on each other, and where they do it may go on by more
+  // than one branch.
+  bool isLoop() const { return !topology_->isTree; }
+  // m: how far the way of a loop's last step is from what the velocities at its ends tell, where
+  // that is not of a smooth motion. Another branch than the one it came by stops bodies at once.
+  double jump() const { return jump_; }
   // A tree of ball sockets: of the state of the last `set`, motions of `first`, first + 1, ...
   // steps, so many as columns, which tree().end() tells. False: a limit is met.
   bool isTree() const { return tree_.has_value(); }
@@ -146,6 +152,7 @@ class SymmetricStep {
   void finish(double h, const Surroundings& world);
   void takeRows();
   void stop(double h);
+  double jumpFrom(const IslandState& before, double h) const;
   bool meetsLimit(const Surroundings& world, const TrialPoses& trial) const;
   Vec3 momentumOf(std::size_t body) const;
   Vec3 pullOn(std::size_t body, const Surroundings& world) const;
@@ -169,7 +176,8 @@ class SymmetricStep {
   CrossSystem across_;
   std::vector<Vec3> error_, lambda_;
   std::vector<IslandRow> ahead_;  // of joints, where the step ends
-  IslandState to_;
+  IslandState to_, before_;
+  double jump_ = 0;
   std::vector<Spin> spins_;
   std::vector<Vec3> shift_, twist_, momentum_;  // of impulses [m, kg m^2], and halfway
 };
