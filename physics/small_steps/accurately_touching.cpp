@@ -177,46 +177,6 @@ void SmallSteps::Impl::takeBest(Model& w, const Trial& trial) {
   if (batch.deformables.empty() && !batch.isMixed()) putOnContacts(w, batch, gain * trial.extent);
 }
 
-// Whose contacts carry load is where these touch. What rows lead to is off by what they differ by,
-// and no row takes that back by powers of h: a hoop that rolls would rock, more with every step.
-// What is further off, by `most` [m], is deep in each row, and comes out as that is let to.
-void SmallSteps::Impl::putOnContacts(Model& w, const Batch& batch, double most) {
-  for (const BodyId i : batch.bodies) takeMass(w, i);
-  for (const int contact : batch.contacts) {
-    for (int k = 0; k < contacts[contact].count; ++k) {
-      if (rowLoads[contact][k] > 0) putOn(w.bodies, contacts[contact], k, most);
-    }
-  }
-}
-
-// Both bodies, each as it resists a push along the normal.
-void SmallSteps::Impl::putOn(Bodies& b, const KeptContact& c, int point, double most) const {
-  struct Side {
-    BodyId body;
-    double sign;
-    Vec3 at;
-    Displacement way = {};  // by a unit of push
-  };
-  const ContactPoint& shape = c.points[point];
-  const Vec3 n = normalOf(c, b.pose);
-  Side sides[] = {{c.a, 1, b.pose[c.a].q * shape.coreA - shape.radiusA * n},
-                  {c.b, -1, b.pose[c.b].q * shape.coreB + shape.radiusB * n}};
-  double gap = 0, gives = 0;
-  for (Side& side : sides) {
-    gap += side.sign * n.dot(b.pose[side.body].x + side.at);
-    if (!isMovable(b, side.body)) continue;
-    const JointMass& mass = masses[side.body];
-    const Vec3 lever = side.at.cross(n);
-    side.way = {side.sign * mass.inverse * n, side.sign * (mass.inertia * lever)};
-    gives += mass.inverse + lever.dot(mass.inertia * lever);
-  }
-  if (!(gives > 0) || std::abs(gap) > most) return;
-  for (const Side& side : sides) {
-    if (!isMovable(b, side.body)) continue;
-    displace(b.pose[side.body], -gap / gives * side.way.u, -gap / gives * side.way.theta);
-  }
-}
-
 // What rows lead to is off what holds a mesh by the square of what they differ by.
 void SmallSteps::Impl::close(Model& w, Deformable& mesh, double h) {
   if (!mesh.isAtOnce()) return;

@@ -14,6 +14,7 @@
 //   fly.cpp           bodies that nothing holds, and those that are about to meet
 //   accurately.cpp    islands that step by an accuracy, and touch nothing
 //   accurately_touching.cpp  and those that touch, or have meshes and ropes
+//   put_on_contacts.cpp      what these extrapolate to stays where it touches
 //   at_once.cpp       loads of contacts that sweeps do not find
 //   close_velocities.cpp     sweeps over their contacts until these change no more
 //   bounce.cpp        restitution
@@ -240,6 +241,21 @@ struct SmallSteps::Impl {
     std::vector<Pose> pose;
     std::vector<Velocity> velocity;
   } reached;
+  // A point of contact that carries load, where a step ends.
+  struct PressedPoint {
+    struct Side {
+      BodyId body;
+      bool moves;
+      Vec3 normal, lever;  // signed
+      Displacement way;    // by a unit of push
+      double opening(const Vec3& v, const Vec3& w) const { return normal.dot(v) + lever.dot(w); }
+    };
+    Side sides[2];
+    int contact = 0;
+    double gap = 0, speed = 0;  // m, m/s: open, and opening
+    double gives = 0;           // to a unit of push
+  };
+  std::vector<PressedPoint> pressedPoints;  // scratch
   // N, by contact and point: of the last row, and of the one before.
   using PointLoads = std::array<double, ContactBlock::kPoints>;
   std::vector<PointLoads> rowLoads, coarserLoads;
@@ -356,7 +372,9 @@ struct SmallSteps::Impl {
   bool goToReached(Model& w, Batch& batch, double h);
   void takeBest(Model& w, const Trial& trial);
   void putOnContacts(Model& w, const Batch& batch, double most);
-  void putOn(Bodies& b, const KeptContact& c, int point, double most) const;
+  PressedPoint pressedPoint(const Bodies& b, const KeptContact& c, int point) const;
+  void seeRocking();
+  void takeBack(const Batch& batch, double PressedPoint::*open);
   void goBack(Bodies& b, const Batch& batch);
   void goBack(Bodies& b, const Batch& batch, std::size_t k);
   void run(Model& w, Batch& batch, double h, int count, StepReport& report);

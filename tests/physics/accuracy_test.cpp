@@ -633,10 +633,10 @@ TEST(Accuracy, OfJointedBoxesThatTumbleGainsNoEnergy) {
   }
 }
 
-// Rows of a hoop's steps leave its rim by rounding, what they lead to by more, and were that not
-// taken back it would rock, a little more in each of these frames, until a side lifts.
+// What rows of a hoop's steps lead to is off its rim by more than these, and speeds are off by what
+// makes it rock the other way round in the next step, by 1.14 times as much, until a side lifts.
 TEST(Accuracy, OfAHoopThatRollsDownhillStaysOnItsRim) {
-  for (const int fps : {20, 27, 30}) {
+  for (const int fps : {20, 27, 30, 60}) {
     Settings settings = asking(1e-5);
     settings.dt = 1.0 / fps;
     settings.gravity = kGravity * Vec3(0.5, -std::sqrt(0.75), 0);  // 30 degrees
@@ -656,7 +656,7 @@ TEST(Accuracy, OfAHoopThatRollsDownhillStaysOnItsRim) {
       most = std::max(most, (x - Vec3(kGravity / 8 * time * time, 0.5, 4.5)).norm());
     }
     std::printf("%d frames per second: off by %.1e m\n", fps, most);
-    EXPECT_LT(most, 3e-5) << fps;  // three times what is asked
+    EXPECT_LT(most, 1e-5) << fps;
   }
 }
 
