@@ -43,10 +43,10 @@ double rootOf(double x, int n) {
   return n > 1 ? root : x;
 }
 
-// By time.
+// By time. Where a step starts is looked at once, which counts as ODEX's first evaluation does.
 double StepChoice::workFor(double step, int columns, double time) const {
   if (rows_ == Rows::kSideBySide) return cheapestRows(columns, step, time).work;
-  return 0.5 * columns * (columns + 1) / std::min(step, time);
+  return (1 + 0.5 * columns * (columns + 1)) / std::min(step, time);
 }
 
 void StepChoice::archive(Archive& a) { a(columns_, wanted_, bound_, resolves_, isRough_, lost_); }
