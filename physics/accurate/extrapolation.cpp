@@ -13,7 +13,6 @@ namespace {
 // Joints are closed to this part of what a step may err by, for each of its parts; a loop's to the
 // square of it, by the root of which bodies are off where rows depend on each other.
 constexpr double kClosed = 1e-3;
-constexpr double kFinest = 1e-14;               // of the size: no closer than numbers are
 constexpr double kLeastPart = 1.0 / (1 << 14);  // of the time asked for, in one step
 
 }  // namespace
@@ -95,13 +94,14 @@ bool Extrapolation::advance(IslandState& state, double time, double accuracy,
     if (rows.step < least) return choice_.forget(), false;
     // A step ends where a table has a point: no order counts across one.
     const double whole = nextPart(world.kinds, from, rows.step, least);
-    // Where joints close no further than that, speeds of a step are off by it over the step.
+    // Where joints close no further than numbers are, speeds of a step are off by it over the step.
+    const double finest = step_.finest() / step_.size();
     const StepChoice::Allowance allowed{inAll * (whole / time), 1,
-                                        isTree ? rows.noise : kFinest * lasting_ * columns / whole,
+                                        isTree ? rows.noise : finest * lasting_ * columns / whole,
                                         isTree ? 0 : 1};
     const double known = kClosed * allowed.most();
     const double closed = step_.isLoop() ? known * known : known / (columns * columns);
-    tolerance_ = step_.size() * std::max(kFinest, closed);
+    tolerance_ = step_.size() * std::max(finest, closed);
     const bool isDone = fill(rows.first, columns, from, whole, world, trial);
     const double step = whole / rows.reach;
     if (!isDone || !(error_ <= allowed.most())) {
@@ -125,7 +125,7 @@ bool Extrapolation::advanceBy(IslandState& state, double time, int columns, int 
                               const Surroundings& world, const TrialPoses& trial) {
   state_ = state;
   step_.set(state_, world, trial);
-  tolerance_ = kFinest * step_.size();
+  tolerance_ = step_.finest();
   const double h = time / steps;
   for (int s = 0; s < steps; ++s) {
     if (!fill(1, columns, world.time + s * h, h, world, trial)) return false;

@@ -11,6 +11,10 @@
 namespace physics {
 namespace {
 
+// Joints close as far as numbers tell where bodies are: in a few roundings of what an island
+// measures, and of how far from the origin it is.
+constexpr double kFinest = 1e-14, kFinestPlace = 1e-15;
+
 std::vector<BodyId> bodiesOf(std::span<const JointRef> refs, std::span<const BodyId> moving,
                              const Kinds& kinds) {
   std::vector<BodyId> all(moving.begin(), moving.end());
@@ -186,6 +190,8 @@ void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) 
     speed_ = std::max(speed_, velocity.v.norm() + levers_[i] * velocity.w.norm());
   }
   size_ = std::max(size_, (high - low).norm());
+  const double far = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+  finest_ = std::max(kFinest * size_, kFinestPlace * far);
 }
 
 bool SymmetricStep::project(const IslandState& state, double tolerance, const Surroundings& world,

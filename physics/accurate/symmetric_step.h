@@ -65,8 +65,9 @@ class SymmetricStep {
   bool isJoined() const { return !refs_.empty(); }
   bool moves(std::size_t place) const { return moves_[place]; }
   bool turns(std::size_t place) const { return moves_[place] && !inverseInertia_[place].isZero(0); }
-  double size() const { return size_; }    // m: the largest extent that the island has had
-  double speed() const { return speed_; }  // m/s: and the largest of its points' speeds
+  double size() const { return size_; }      // m: the largest extent that the island has had
+  double finest() const { return finest_; }  // m: its joints close no further
+  double speed() const { return speed_; }    // m/s: and the largest of its points' speeds
 
   // m, by place: how far points of a body have been from its centre, those of its joints too; 0
   // where it does not turn.
@@ -160,7 +161,7 @@ class SymmetricStep {
   std::vector<BodyId> bodies_;
   std::vector<bool> moves_;
   std::vector<Vec3> inertia_, inverseInertia_;  // principal
-  double size_ = 0, speed_ = 0;
+  double size_ = 0, speed_ = 0, finest_ = 0;
   std::vector<double> levers_;
   std::vector<JointRef> refs_, limits_;  // refs_ in the order of elimination
   std::vector<bool> isForce_, isDamped_;

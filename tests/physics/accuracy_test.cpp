@@ -225,14 +225,15 @@ TEST(Accuracy, IsOfTheDefaultOnlyWhereAsked) {
 // and move as one: they pass through the pose in which all bars lie in a line, where any of them
 // may fold the other way.
 struct Windows {
-  Windows(const Settings& settings, int count, double high, double speed) : world(settings) {
+  Windows(const Settings& settings, int count, double high, double speed, double far = 0)
+      : world(settings) {
     const Vec3 upright(0.04, 1, 0.04), along(1, 0.04, 0.04), end(0, 0.5 * high, 0);
     for (int i = 0; i <= count; ++i) {
-      uprights.push_back(bar(upright, Vec3(i, 0, 0) + end));
+      uprights.push_back(bar(upright, Vec3(far + i, 0, 0) + end));
       world.setVelocity(uprights[i], {{0.5 * speed, 0, 0}, {0, 0, -high * speed}});
-      hang(kWorldBody, {1.0 * i, 0, 0}, uprights[i], -end);
+      hang(kWorldBody, {far + i, 0, 0}, uprights[i], -end);
       if (i == 0) continue;
-      tops.push_back(bar(along, Vec3(i - 0.5, 0, 0) + 2 * end));
+      tops.push_back(bar(along, Vec3(far + i - 0.5, 0, 0) + 2 * end));
       world.setVelocity(tops.back(), {{speed, 0, 0}, {0, 0, 0}});
       hang(uprights[i - 1], end, tops.back(), {-0.5, 0, 0});
       hang(tops.back(), {0.5, 0, 0}, uprights[i], end);
@@ -270,24 +271,27 @@ TEST(Accuracy, GoesStraightThroughAPoseOfDependentRows) {
 
 // Where one of them stays behind in that pose, its bars stop at once, and so they do in rows of any
 // number of steps: 130 of 216 runs as these, of up to eight, lost up to 54 % of their energy.
+// Far from the origin numbers tell less of where they are.
 TEST(Accuracy, OfParallelogramsSideBySideKeepsTheirEnergy) {
-  double most = 0;
-  for (const int count : {1, 2, 3, 5}) {
-    for (const double fps : {20, 25, 30, 60}) {
-      for (const double accuracy : {1e-1, 1e-2}) {
-        Settings settings = asking(accuracy);
-        settings.substeps.reset();
-        settings.dt = 1 / fps;
-        Windows bars(settings, count, 1, 1);
-        const double before = measure(bars.world).total(), height = kGravity * (3 * count + 1);
-        for (int frame = 0; frame < 10 * fps; ++frame) bars.world.step();
-        const double off = std::abs(measure(bars.world).total() - before) / height;
-        EXPECT_LT(off, 0.01) << count << ' ' << fps << ' ' << accuracy;
-        most = std::max(most, off);
+  for (const double far : {0.0, 1e4}) {
+    double most = 0;
+    for (const int count : {1, 2, 3, 5}) {
+      for (const double fps : {20, 25, 30, 60}) {
+        for (const double accuracy : {1e-1, 1e-2}) {
+          Settings settings = asking(accuracy);
+          settings.substeps.reset();
+          settings.dt = 1 / fps;
+          Windows bars(settings, count, 1, 1, far);
+          const double before = measure(bars.world).total(), height = kGravity * (3 * count + 1);
+          for (int frame = 0; frame < 10 * fps; ++frame) bars.world.step();
+          const double off = std::abs(measure(bars.world).total() - before) / height;
+          EXPECT_LT(off, 0.01) << far << ' ' << count << ' ' << fps << ' ' << accuracy;
+          most = std::max(most, off);
+        }
       }
     }
+    std::printf("%g m away: off by %.1e of what lifts them by 1 m\n", far, most);
   }
-  std::printf("off by %.1e of what lifts them by 1 m\n", most);
 }
 
 // What eliminating one row leaves couples others that share no body.
