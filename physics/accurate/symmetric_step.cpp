@@ -223,8 +223,8 @@ void SymmetricStep::stop(double h) {
   if (h > 0) present_.h = h;
 }
 
-// Over the largest way of a body: what stops at once leaves a half, what a step resolves much less.
-// From a tenth to two fifths make no difference to rows of parallelograms.
+// Of the largest way of a body, what stops at once leaves a half, what a step resolves much less:
+// from a tenth to two fifths make no difference to rows of parallelograms.
 double SymmetricStep::jumpFrom(const IslandState& before, double h) const {
   constexpr double kSmooth = 0.25;
   double most = 0, way = 0;

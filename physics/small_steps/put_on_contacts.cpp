@@ -1,7 +1,9 @@
-// Where what rows lead to ends: contacts that carry load touch there, and neither open nor close.
-// What rows lead to is off by what they differ by, and no row takes that back by powers of h: what
-// is left of it a line of contact gives to the next step's rows the other way round, and by more. A
-// hoop that rolls would rock until a side lifts.
+// Where what rows lead to ends, contacts that carry load touch, and do not rock. What rows lead to
+// is off by what they differ by, and no row takes that back by powers of h: a contact gives way by
+// h^2, so that all substeps do the same to it, however long they are. What is left of how a line of
+// contact rocks the next step's rows turn round, and make more of it: a hoop that rolls would rock
+// until a side lifts.
+#include <algorithm>
 #include <cmath>
 
 #include "physics/base/rotation.h"
@@ -14,7 +16,7 @@ namespace {
 
 // Of what the first of them take passes leave less, so that what is taken anew in each step dies.
 constexpr double kLeft = 1e-2;
-constexpr int kMostPasses = 64;  // two ends of a rod take a dozen
+constexpr int kMostPasses = 64;  // the two sides of a narrow hoop take 14
 
 }  // namespace
 
