@@ -27,11 +27,9 @@ bool Extrapolation::run(int n, double from, double whole, const Surroundings& wo
                         const TrialPoses& trial) {
   const double h = whole / n;
   step_.restart();
-  jump_ = 0;
   for (int k = 0; k < n; ++k) {
     takeFactors(world.kinds, world.bodies, from + k * h, from + (k + 1) * h);
     if (!step_.step(h, tolerance_, world, trial)) return false;
-    jump_ = std::max(jump_, step_.jump());
   }
   row_ = step_.state();
   step_.takeMomenta(row_);
@@ -56,7 +54,7 @@ bool Extrapolation::fill(int first, int columns, double from, double whole,
     if (row == 0 || row + 2 < columns) continue;
     coarser_ = error_;
     error_ = tableau_.difference(step_.size(), std::max(whole, lasting_), step_.levers());
-    error_ = std::max(error_, jump_ / step_.size());  // all rows may agree on one
+    error_ = std::max(error_, step_.jump() / step_.size());  // all rows may agree on one
   }
   return true;
 }

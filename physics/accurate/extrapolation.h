@@ -38,7 +38,6 @@ class Extrapolation {
   IslandState state_, row_;
   StepChoice choice_;
   double error_ = 0, coarser_ = 0;  // of the tableau, and of one column less
-  double jump_ = 0;                 // m: the largest of its last row's steps
   // s: what a speed is off by counts as a way for as long as the island takes for its size, a frame
   // at least, and no longer than errors add up; where a damper takes it, within the step.
   double lasting_ = 0;

@@ -160,6 +160,11 @@ void SymmetricStep::set(const IslandState& state, const Surroundings& world,
   measure(world, trial);
 }
 
+// The largest of its points.
+double SymmetricStep::speedOf(std::size_t place, const Velocity& velocity) const {
+  return velocity.v.norm() + levers_[place] * velocity.w.norm();
+}
+
 void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   const auto reach = [&](const Vec3& x) { low = low.cwiseMin(x), high = high.cwiseMax(x); };
@@ -186,8 +191,7 @@ void SymmetricStep::measure(const Surroundings& world, const TrialPoses& trial) 
     reach(present_.state.pose[i].x);
     size_ = std::max(size_, boundingRadius(world.bodies.shape[bodies_[i]]));
     size_ = std::max(size_, levers_[i]);
-    const Velocity& velocity = present_.state.velocity[i];
-    speed_ = std::max(speed_, velocity.v.norm() + levers_[i] * velocity.w.norm());
+    speed_ = std::max(speed_, speedOf(i, present_.state.velocity[i]));
   }
   size_ = std::max(size_, (high - low).norm());
   const double far = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
@@ -276,6 +280,7 @@ void SymmetricStep::takeSpins(IslandState& state) const {
 void SymmetricStep::restart() {
   if (hasStepped_) present_ = first_;
   hasStepped_ = false;
+  jump_ = 0;
 }
 
 // `set` makes the rest anew, of the same pose.

@@ -234,9 +234,8 @@ double SymmetricStep::jumpFrom(const IslandState& before, double h) const {
     const Vec3 v = 0.5 * (start.v + end.v), w = 0.5 * (start.w + end.w);
     double off = (present_.state.pose[i].x - before.pose[i].x - h * v).norm();
     if (turns(i)) off += h * levers_[i] * (spins_[i].turned * spins_[i].mean - w).norm();
-    const auto speedOf = [&](const Velocity& u) { return u.v.norm() + levers_[i] * u.w.norm(); };
     most = std::max(most, off);
-    way = std::max(way, 0.5 * h * (speedOf(start) + speedOf(end)));
+    way = std::max(way, 0.5 * h * (speedOf(i, start) + speedOf(i, end)));
   }
   return most > kSmooth * way ? most : 0;
 }
@@ -274,7 +273,7 @@ bool SymmetricStep::step(double h, double tolerance, const Surroundings& world,
   finish(h, world);
   turnInertia();
   stop(h);
-  if (isLoop()) jump_ = jumpFrom(before_, h);
+  if (isLoop()) jump_ = std::max(jump_, jumpFrom(before_, h));
   return true;
 }
 

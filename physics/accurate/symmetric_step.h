@@ -91,8 +91,9 @@ class SymmetricStep {
   // Joints make a loop: its rows may depend on each other, and where they do it may go on by more
   // than one branch.
   bool isLoop() const { return !topology_->isTree; }
-  // m: how far the way of a loop's last step is from what the velocities at its ends tell, where
-  // that is not of a smooth motion. Another branch than the one it came by stops bodies at once.
+  // m: how far the way of a loop's step is from what the velocities at its ends tell, where that is
+  // not of a smooth motion: the furthest since restart(). Another branch than the one it came by
+  // stops bodies at once.
   double jump() const { return jump_; }
   // A tree of ball sockets: of the state of the last `set`, motions of `first`, first + 1, ...
   // steps, so many as columns, which tree().end() tells. False: a limit is met.
@@ -137,6 +138,7 @@ class SymmetricStep {
   template <class Change>  // of the spin of each body that has several, in its own frame
   void changeSpins(IslandState& state, const Change& change) const;
   double leverOf(std::size_t place, const Surroundings& world) const;
+  double speedOf(std::size_t place, const Velocity& velocity) const;
   void lookAt(const IslandState& at, std::span<const Pose> now, const TrialPoses& trial,
               const Surroundings& world, double h);
   void lookAtForces(const Surroundings& world, const TrialPoses& trial, double h);

@@ -8,7 +8,6 @@
 
 #include "physics/base/rotation.h"
 #include "physics/model/islands.h"
-#include "physics/small_steps/island_plan.h"
 #include "physics/small_steps/small_steps_impl.h"
 
 namespace physics {
@@ -16,16 +15,17 @@ namespace {
 
 // Of what the first of them take passes leave less, so that what is taken anew in each step dies.
 constexpr double kLeft = 1e-2;
-constexpr int kMostPasses = 64;  // the two sides of a narrow hoop take 14
+constexpr int kMostPasses = 64;  // a hoop takes 14; some gaps of a face cannot close together
 
 }  // namespace
 
 // Both bodies, as they resist a push along the normal.
-SmallSteps::Impl::PressedPoint SmallSteps::Impl::pressedPoint(const Bodies& b, const KeptContact& c,
+SmallSteps::Impl::PressedPoint SmallSteps::Impl::pressedPoint(const Bodies& b, int contact,
                                                               int point) const {
+  const KeptContact& c = contacts[contact];
   const ContactPoint& shape = c.points[point];
   const Vec3 n = normalOf(c, b.pose);
-  PressedPoint pressed;
+  PressedPoint pressed{.contact = contact};
   const auto see = [&](PressedPoint::Side& side, BodyId body, double sign, const Vec3& at) {
     side = {body, isMovable(b, body), sign * n, sign * at.cross(n), {}};
     pressed.gap += side.normal.dot(b.pose[body].x + at);
@@ -100,8 +100,7 @@ void SmallSteps::Impl::putOnContacts(Model& w, const Batch& batch, double most) 
   for (const int contact : batch.contacts) {
     for (int k = 0; k < contacts[contact].count; ++k) {
       if (!(rowLoads[contact][k] > 0)) continue;
-      PressedPoint point = pressedPoint(b, contacts[contact], k);
-      point.contact = contact;
+      const PressedPoint point = pressedPoint(b, contact, k);
       if (point.gives > 0 && std::abs(point.gap) <= most) pressedPoints.push_back(point);
     }
   }

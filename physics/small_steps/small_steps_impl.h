@@ -250,8 +250,8 @@ struct SmallSteps::Impl {
       Displacement way;    // by a unit of push
       double opening(const Vec3& v, const Vec3& w) const { return normal.dot(v) + lever.dot(w); }
     };
-    Side sides[2];
-    int contact = 0;
+    int contact;
+    Side sides[2] = {};
     double gap = 0, speed = 0;  // m, m/s: open, and opening
     double gives = 0;           // to a unit of push
   };
@@ -372,7 +372,7 @@ struct SmallSteps::Impl {
   bool goToReached(Model& w, Batch& batch, double h);
   void takeBest(Model& w, const Trial& trial);
   void putOnContacts(Model& w, const Batch& batch, double most);
-  PressedPoint pressedPoint(const Bodies& b, const KeptContact& c, int point) const;
+  PressedPoint pressedPoint(const Bodies& b, int contact, int point) const;
   void seeRocking();
   void takeBack(const Batch& batch, double PressedPoint::*open);
   void goBack(Bodies& b, const Batch& batch);
