@@ -49,10 +49,3 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"
 extern "C" const char* __lsan_default_options();
 extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif
-
-#ifdef __SANITIZE_THREAD__
-// The packaged LLVM, which Mesa compiles shaders with, is built without the sanitizer: it does not
-// see the fences that order what LLVM makes when it is first asked for.
-extern "C" const char* __tsan_default_suppressions();
-extern "C" const char* __tsan_default_suppressions() { return "race:libLLVM\n"; }
-#endif

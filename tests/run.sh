@@ -21,8 +21,6 @@ if [ "${1:-}" = --sanitize ]; then
   # Mesa and fontconfig keep what they allocate; overlapping scopes of the stack are looked at too.
   export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0:detect_stack_use_after_return=1}
   export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
-  # Mesa is not built for it: how its contexts count each other the thread sanitizer cannot see.
-  export TSAN_OPTIONS=${TSAN_OPTIONS:-suppressions=$root/tests/threads.supp}
 fi
 
 install_packages

@@ -1,20 +1,21 @@
-// Cells are drawn in parallel; pages are put together on the calling thread.
+// A figure is one picture of a drawing process, and so is every frame of its film.
 #include "app/figure/figure_draw.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <memory>
+#include <numeric>
 
 #include "app/base/build_info.h"
 #include "app/base/interrupt.h"
 #include "app/base/output_file.h"
 #include "app/base/shell.h"
 #include "app/figure/vector_page.h"
+#include "app/run/draw_apart.h"
 #include "app/run/frame_folder.h"
-#include "app/run/pipeline.h"
+#include "app/run/open_renderer.h"
 #include "app/run/run_record.h"
-#include "app/run/whole_frames.h"
 #include "render/film.h"
 #include "render/page.h"
 #include "render/png.h"
@@ -31,34 +32,23 @@ render::RendererOptions rendererOptions(const Rectangle& cell, render::Quality q
   return {cell.width, cell.height, quality, ""};
 }
 
-// Every picture tile in its cell's size; cells of one size share their renderers.
-bool drawTiles(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
-               std::vector<render::Image>& images) {
+// Every picture tile in its cell's size; neighbours of one size share a renderer.
+std::vector<render::Image> drawTiles(const FigurePlan& plan, const FigureShots& shots,
+                                     render::Quality quality) {
   const std::vector<FigureTile>& tiles = plan.sheet.tiles;
-  std::map<std::pair<int, int>, std::vector<std::size_t>> bySize;
-  int total = 0;
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
+  std::vector<render::Image> images(tiles.size());
+  std::unique_ptr<render::Renderer> renderer;
+  Rectangle drawn;
+  for (std::size_t t = 0; t < tiles.size() && !interrupted(); ++t) {
     if (tiles[t].isPlot) continue;
-    bySize[{plan.page.cells[t].width, plan.page.cells[t].height}].push_back(t);
-    ++total;
-  }
-  images.resize(tiles.size());
-  Progress progress(drawing.progress, plan.sheet.name, "drawing", total);
-  for (const auto& [size, members] : bySize) {
-    const int workers = std::min(drawing.threads, static_cast<int>(members.size()));
-    Pipeline pipeline(rendererOptions(plan.page.cells[members.front()], drawing.quality), workers,
-                      [&](int tile, const render::Image& image) {
-                        images[static_cast<std::size_t>(tile)] = image;
-                        progress.advance();
-                      });
-    for (const std::size_t t : members) {
-      if (interrupted()) return false;
-      pipeline.draw(static_cast<int>(t), shots.tiles[t]);
+    const Rectangle& cell = plan.page.cells[t];
+    if (!renderer || cell.width != drawn.width || cell.height != drawn.height) {
+      renderer = openRenderer(rendererOptions(cell, quality));
+      drawn = cell;
     }
-    pipeline.finish();
+    images[t] = drawFrame(*renderer, static_cast<int>(t), {&shots.tiles[t], 1});
   }
-  progress.finish();
-  return !interrupted();
+  return images;
 }
 
 // A sheet's own width is meant for 2050 pixels over the 174 mm of a page's two columns.
@@ -144,43 +134,51 @@ render::Page filmPage(const FigurePlan& plan, int printed, std::vector<render::I
   return page;
 }
 
-bool drawFilm(const FigurePlan& plan, FigureShots& shots, const FigureDrawing& drawing,
-              const FrameFolder& folder) {
-  const int frames = plan.filmFrames(), cells = static_cast<int>(plan.filmTiles.size());
-  Progress progress(drawing.progress, plan.sheet.name, "filming", frames);
-  WholeFrames film(std::vector<bool>(plan.filmTiles.size(), true));
-  render::PagePrinter printer;
-  int printed = 0;
-  const auto print = [&] {
-    while (auto images = film.next()) {
-      const render::Page page = filmPage(plan, printed, std::move(*images));
-      render::writePng(printer.print(page), folder.file(printed++));
-      progress.advance();
+// What a drawing process has: a frame's cells on one page, into its file.
+class FilmPainter {
+ public:
+  FilmPainter(const FigurePlan& plan, const FigureShots& shots, const FrameFolder& folder)
+      : plan_(plan), shots_(shots), folder_(folder) {}
+
+  void draw(int frame) {
+    if (!renderer_) {
+      renderer_ =
+          openRenderer(rendererOptions(plan_.film.cells.front(), render::Quality::kStandard));
+      printer_ = std::make_unique<render::PagePrinter>();
     }
-  };
-  Pipeline pipeline(rendererOptions(plan.film.cells.front(), render::Quality::kStandard),
-                    drawing.threads,
-                    [&](int job, const render::Image& image) { film.take(job, image); });
-  for (int frame = 0; frame < frames; ++frame) {
-    if (interrupted()) return false;
-    for (int cell = 0; cell < cells; ++cell) {
-      auto& pictures = shots.film[static_cast<std::size_t>(cell)];
-      pipeline.draw(film.job(frame, cell), std::move(pictures[static_cast<std::size_t>(frame)]));
+    std::vector<render::Image> cells;
+    for (const std::vector<render::Picture>& film : shots_.film) {
+      cells.push_back(drawFrame(*renderer_, frame, {&film[static_cast<std::size_t>(frame)], 1}));
     }
-    print();
+    render::writePng(printer_->print(filmPage(plan_, frame, std::move(cells))),
+                     folder_.file(frame));
   }
-  pipeline.finish();
-  print();
-  progress.finish();
-  return true;
+
+ private:
+  const FigurePlan& plan_;
+  const FigureShots& shots_;
+  const FrameFolder& folder_;
+  std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<render::PagePrinter> printer_;
+};
+
+bool drawFilm(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
+              const FrameFolder& folder) {
+  std::vector<int> frames(static_cast<std::size_t>(plan.filmFrames()));
+  std::iota(frames.begin(), frames.end(), 0);
+  Progress progress(drawing.progress, plan.sheet.name, "filming", plan.filmFrames());
+  FilmPainter painter(plan, shots, folder);
+  const bool isWhole = drawApart(
+      frames, drawing.threads, [&](int frame) { painter.draw(frame); },
+      [&] { progress.advance(); });
+  if (isWhole) progress.finish();
+  return isWhole;
 }
 
-}  // namespace
-
-bool drawFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
-                const std::filesystem::path& file) {
-  std::vector<render::Image> images;
-  if (!drawTiles(plan, shots, drawing, images)) return false;
+void drawPage(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
+              const std::filesystem::path& file) {
+  std::vector<render::Image> images = drawTiles(plan, shots, drawing.quality);
+  if (interrupted()) return;
   render::PagePrinter printer;
   const render::Page page = composeFigure(plan, shots, std::move(images));
   render::writePng(printer.print(page), file, notesOf(plan, drawing));
@@ -188,10 +186,20 @@ bool drawFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDr
     const std::filesystem::path other = std::filesystem::path(file).replace_extension(format);
     writeFile(other, vectorPage(page, printer.inkOf(page), widthInPrint(plan.sheet), format));
   }
-  return true;
 }
 
-bool filmFigure(const FigurePlan& plan, FigureShots& shots, const FigureDrawing& drawing,
+}  // namespace
+
+bool drawFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
+                const std::filesystem::path& file) {
+  Progress progress(drawing.progress, plan.sheet.name, "drawing", 1);
+  const bool isDrawn =
+      drawApart({0}, 1, [&](int) { drawPage(plan, shots, drawing, file); }) && !interrupted();
+  if (isDrawn) progress.finish();
+  return isDrawn;
+}
+
+bool filmFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
                 const std::filesystem::path& output, const std::filesystem::path& file) {
   const FrameFolder folder(output);
   folder.clear();

@@ -21,7 +21,7 @@ bool drawFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDr
                 const std::filesystem::path& file);
 
 // FOLDER/00000.png and on, then `file`. Throws EnvironmentError where ffmpeg fails.
-bool filmFigure(const FigurePlan& plan, FigureShots& shots, const FigureDrawing& drawing,
+bool filmFigure(const FigurePlan& plan, const FigureShots& shots, const FigureDrawing& drawing,
                 const std::filesystem::path& folder, const std::filesystem::path& file);
 
 }  // namespace app

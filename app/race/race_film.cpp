@@ -1,16 +1,18 @@
-// Draws a race: panels in parallel, frames put together in order on the calling thread.
+// Draws a race: every frame with all its panels is one picture of a drawing process.
 #include "app/race/race_film.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
 
 #include "app/base/interrupt.h"
 #include "app/commands/exit_code.h"
+#include "app/run/draw_apart.h"
 #include "app/run/frame_folder.h"
-#include "app/run/pipeline.h"
+#include "app/run/open_renderer.h"
 #include "app/run/provenance.h"
-#include "app/run/whole_frames.h"
 #include "render/film.h"
 #include "render/png.h"
 #include "scenes/joined.h"
@@ -81,50 +83,71 @@ std::string commandOf(const Race& race, const RaceDrawing& drawing, const RaceLa
                      qualityName(drawing.quality));
 }
 
+// What a drawing process has: all engines at a frame, on one page, into its file.
+class RacePainter {
+ public:
+  RacePainter(const Race& race, const RaceLimits& limits, const RaceDrawing& drawing,
+              const RaceLayout& layout, const FrameFolder& folder)
+      : race_(race),
+        limits_(limits),
+        quality_(drawing.quality),
+        layout_(layout),
+        folder_(folder),
+        bounds_(boundsOf(race)),
+        record_(makeRecord(race.scene)),
+        command_(commandOf(race, drawing, layout, record_)) {}
+
+  void draw(int frame) {
+    if (!renderer_) open();
+    std::vector<render::Image> images(replays_.size());
+    for (std::size_t panel = 0; panel < replays_.size(); ++panel) {
+      if (replays_[panel] != nullptr) images[panel] = image(*replays_[panel], frame);
+    }
+    const render::Page page = racePage(race_, limits_, layout_, frame, std::move(images));
+    render::writePng(printer_->print(page), folder_.file(frame), notesOf(record_, frame, command_));
+  }
+
+ private:
+  void open() {
+    renderer_ = openRenderer({layout_.panelWidth, layout_.pictureHeight, quality_, ""});
+    printer_ = std::make_unique<render::PagePrinter>();
+    for (const RaceTrack& track : race_.tracks) {
+      replays_.push_back(track.ran() ? std::make_unique<Replay>(race_.scene, track) : nullptr);
+    }
+  }
+
+  const render::Image& image(Replay& replay, int frame) {
+    scenes::ViewOptions options;
+    options.aspect = static_cast<double>(layout_.panelWidth) / layout_.pictureHeight;
+    render::Picture picture = scenes::view(replay.show(frame), bounds_, options, {});
+    dropWhatIsOutOfSight(picture);
+    return drawFrame(*renderer_, frame, {&picture, 1});
+  }
+
+  const Race& race_;
+  const RaceLimits& limits_;
+  const render::Quality quality_;
+  const RaceLayout& layout_;
+  const FrameFolder& folder_;
+  const scenes::MotionBounds bounds_;
+  const RunRecord record_;
+  const std::string command_;
+  std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<render::PagePrinter> printer_;
+  std::vector<std::unique_ptr<Replay>> replays_;  // by track; none of what did not run
+};
+
 bool drawFrames(const Race& race, const RaceLimits& limits, const RaceDrawing& drawing,
                 const RaceLayout& layout, const FrameFolder& folder) {
-  scenes::ViewOptions options;
-  options.aspect = static_cast<double>(layout.panelWidth) / layout.pictureHeight;
-  const scenes::MotionBounds bounds = boundsOf(race);
-  std::vector<std::unique_ptr<Replay>> replays;
-  for (const RaceTrack& track : race.tracks) {
-    replays.push_back(track.ran() ? std::make_unique<Replay>(race.scene, track) : nullptr);
-  }
   Progress progress(drawing.progress, race.scene.name, "drawing", race.frames);
-  std::vector<bool> isDrawn;
-  for (const RaceTrack& track : race.tracks) isDrawn.push_back(track.ran());
-  WholeFrames pages(std::move(isDrawn));
-  const RunRecord record = makeRecord(race.scene);
-  const std::string command = commandOf(race, drawing, layout, record);
-  render::PagePrinter printer;
-  int printed = 0;
-  const auto print = [&] {
-    for (; printed < race.frames; ++printed) {
-      auto images = pages.next();
-      if (!images) return;
-      const render::Page page = racePage(race, limits, layout, printed, std::move(*images));
-      render::writePng(printer.print(page), folder.file(printed),
-                       notesOf(record, printed, command));
-      progress.advance();
-    }
-  };
-  Pipeline pipeline({layout.panelWidth, layout.pictureHeight, drawing.quality, ""}, drawing.threads,
-                    [&](int job, const render::Image& image) { pages.take(job, image); });
-  for (int frame = 0; frame < race.frames; ++frame) {
-    for (int panel = 0; panel < layout.panels; ++panel) {
-      if (interrupted()) return false;
-      Replay* const replay = replays[static_cast<std::size_t>(panel)].get();
-      if (replay == nullptr) continue;
-      render::Picture picture = scenes::view(replay->show(frame), bounds, options, {});
-      dropWhatIsOutOfSight(picture);
-      pipeline.draw(pages.job(frame, panel), std::move(picture));
-    }
-    print();
-  }
-  pipeline.finish();
-  print();
-  progress.finish();
-  return true;
+  RacePainter painter(race, limits, drawing, layout, folder);
+  std::vector<int> frames(static_cast<std::size_t>(race.frames));
+  std::iota(frames.begin(), frames.end(), 0);
+  const bool isWhole = drawApart(
+      frames, drawing.threads, [&](int frame) { painter.draw(frame); },
+      [&] { progress.advance(); });
+  if (isWhole) progress.finish();
+  return isWhole;
 }
 
 }  // namespace

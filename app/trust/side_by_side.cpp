@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "app/base/interrupt.h"
-#include "app/run/pipeline.h"
-#include "app/run/whole_frames.h"
+#include "app/run/draw_apart.h"
+#include "app/run/open_renderer.h"
 #include "render/film.h"
 #include "render/page.h"
 #include "render/png.h"
@@ -96,27 +97,47 @@ void markBody(const scenes::Simulation& simulation, physics::BodyId body,
   picture.labels.push_back({at, simulation.bodyName(body), {10, -10}, kMark, 22});
 }
 
-// Puts the pictures of both sides on pages, in order, while others are drawn.
-class SidePages {
+// What a drawing process has: both sides at a frame, on one page, into its file.
+class SidePainter {
  public:
-  SidePages(const SideBySide& sides, const SideLayout& layout, const std::vector<int>& frames)
-      : sides_(sides), layout_(layout), frames_(frames), whole_({true, true}) {}
+  SidePainter(const SideBySide& sides, const render::RendererOptions& whole)
+      : sides_(sides), layout_(whole), pane_(whole) {
+    pane_.width = layout_.paneWidth;
+    pane_.height = layout_.paneHeight;
+    bounds_ = boundsOf(sides, std::min(sides.left->frameCount(), sides.right->frameCount()));
+  }
 
-  WholeFrames& whole() { return whole_; }
-  // The pages whose sides are all drawn.
-  void print(const std::function<std::filesystem::path(int)>& file, Progress& progress) {
-    while (auto images = whole_.next()) {
-      const int frame = frames_[printed_++];
-      render::Page page = blank(frame);
-      for (int side = 0; side < kSides; ++side) {
-        page.tiles.push_back({layout_.leftOf(side), layout_.top, std::move((*images)[side])});
-      }
-      render::writePng(printer_.print(page), file(frame));
-      progress.advance();
+  // Frames in ascending order.
+  void draw(int frame, const std::filesystem::path& file) {
+    if (!renderer_) open();
+    render::Page page = blank(frame);
+    for (int side = 0; side < kSides; ++side) {
+      page.tiles.push_back({layout_.leftOf(side), layout_.top, image(side, frame)});
     }
+    render::writePng(printer_->print(page), file);
   }
 
  private:
+  void open() {
+    renderer_ = openRenderer(pane_);
+    printer_ = std::make_unique<render::PagePrinter>();
+    for (const Track* track : {sides_.left, sides_.right}) {
+      placed_.push_back(std::make_unique<Placed>(sides_.scene, *track));
+    }
+  }
+
+  const render::Image& image(int side, int frame) {
+    scenes::ViewOptions view;
+    view.overlays = sides_.scene.overlays;
+    view.aspect = static_cast<double>(pane_.width) / pane_.height;
+    const scenes::Simulation& simulation = placed_[side]->at(frame);
+    render::Picture picture = scenes::view(simulation, bounds_, view, {});
+    if (isApart(frame) && sides_.body > 0) markBody(simulation, sides_.body, picture);
+    return drawFrame(*renderer_, frame, {&picture, 1});
+  }
+
+  bool isApart(int frame) const { return sides_.marked >= 0 && frame >= sides_.marked; }
+
   render::Page blank(int frame) const {
     render::Page page;
     page.width = layout_.width;
@@ -125,9 +146,8 @@ class SidePages {
     const float right = static_cast<float>(layout_.leftOf(1)) / layout_.scale;
     addText(page, right + 14, 24, 20, 0, sides_.rightLabel, kInk);
     addBar(sides_.left->frames.at(frame).time, page);
-    const bool isApart = sides_.marked >= 0 && frame >= sides_.marked;
     const float middle = 0.5f * static_cast<float>(layout_.width) / layout_.scale;
-    if (isApart) addText(page, middle, 710, 18, 0.5f, sides_.parting, kMark);
+    if (isApart(frame)) addText(page, middle, 710, 18, 0.5f, sides_.parting, kMark);
     return page;
   }
 
@@ -152,11 +172,12 @@ class SidePages {
   }
 
   const SideBySide& sides_;
-  const SideLayout& layout_;
-  const std::vector<int>& frames_;
-  render::PagePrinter printer_;
-  WholeFrames whole_;
-  std::size_t printed_ = 0;
+  const SideLayout layout_;
+  render::RendererOptions pane_;
+  scenes::MotionBounds bounds_;
+  std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<render::PagePrinter> printer_;
+  std::vector<std::unique_ptr<Placed>> placed_;  // by side
 };
 
 }  // namespace
@@ -164,36 +185,15 @@ class SidePages {
 bool drawSideBySide(const SideBySide& sides, const SideDrawing& drawing,
                     const std::vector<int>& frames,
                     const std::function<std::filesystem::path(int)>& file) {
-  const SideLayout layout(drawing.renderer);
-  render::RendererOptions pane = drawing.renderer;
-  pane.width = layout.paneWidth;
-  pane.height = layout.paneHeight;
-  scenes::ViewOptions view;
-  view.overlays = sides.scene.overlays;
-  view.aspect = static_cast<double>(pane.width) / pane.height;
-  const scenes::MotionBounds bounds =
-      boundsOf(sides, std::min(sides.left->frameCount(), sides.right->frameCount()));
-  SidePages pages(sides, layout, frames);
   Progress progress(drawing.progress, sides.scene.name, "drawing side by side",
                     static_cast<int>(frames.size()));
-  Placed shown[] = {{sides.scene, *sides.left}, {sides.scene, *sides.right}};
-  Pipeline pipeline(pane, drawing.threads,
-                    [&](int job, const render::Image& image) { pages.whole().take(job, image); });
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    if (interrupted()) return false;
-    for (int side = 0; side < kSides; ++side) {
-      const scenes::Simulation& simulation = shown[side].at(frames[f]);
-      render::Picture picture = scenes::view(simulation, bounds, view, {});
-      const bool isApart = sides.marked >= 0 && frames[f] >= sides.marked;
-      if (isApart && sides.body > 0) markBody(simulation, sides.body, picture);
-      pipeline.draw(pages.whole().job(static_cast<int>(f), side), std::move(picture));
-    }
-    pages.print(file, progress);
-  }
-  pipeline.finish();
-  pages.print(file, progress);
-  progress.finish();
-  return !interrupted();
+  SidePainter painter(sides, drawing.renderer);
+  if (interrupted()) return false;
+  const bool isWhole = drawApart(
+      frames, drawing.threads, [&](int frame) { painter.draw(frame, file(frame)); },
+      [&] { progress.advance(); });
+  if (isWhole) progress.finish();
+  return isWhole;
 }
 
 bool filmFrames(const std::filesystem::path& folder, const std::vector<int>& frames, int fps,

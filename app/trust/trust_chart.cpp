@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/base/output_file.h"
+#include "app/run/draw_apart.h"
 #include "render/png.h"
 
 namespace app {
@@ -81,7 +82,7 @@ void writeCharts(const std::string& title, const std::vector<render::Chart>& cha
     page.plots.push_back({{12, top}, {kWidth - 12, top + kHeight - 8}, chart, kTextSize});
     top += kHeight;
   }
-  render::writePng(render::PagePrinter().print(page), file);
+  drawApart({0}, 1, [&](int) { render::writePng(render::PagePrinter().print(page), file); });
 }
 
 void writeTrust(const Trust& trust, const std::filesystem::path& folder) {

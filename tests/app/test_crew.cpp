@@ -3,12 +3,21 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <thread>
 
 #include "app/commands/exit_code.h"
 #include "app/run/crew.h"
+#include "app/run/draw_apart.h"
+#include "app/run/open_renderer.h"
+#include "render/png.h"
+#include "scenes/read/file_text.h"
+#include "tests/render/sample.h"
 
 namespace app {
 namespace {
@@ -94,6 +103,60 @@ TEST(Crew, AbandoningDropsWhatNobodyHasBegun) {
   EXPECT_EQ(answers, 0);
   EXPECT_TRUE(crew.finish());
   crew.abandon();
+}
+
+class DrawApart : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string file(int frame) const { return (folder_ / std::to_string(frame)).string(); }
+  void draw(int frame) {
+    if (!renderer_) renderer_ = openRenderer({64, 36, render::Quality::kDraft, ""});
+    render::writePng(drawFrame(*renderer_, frame, {&picture_, 1}), file(frame));
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / ("draw_apart_" + std::to_string(::getpid()));
+  render::Picture picture_ = render::samplePicture();
+  std::unique_ptr<render::Renderer> renderer_;
+};
+
+TEST_F(DrawApart, EveryFrameOnceAndTheSameInAnyProcess) {
+  std::vector<int> frames(24);
+  std::iota(frames.begin(), frames.end(), 0);
+  int done = 0;
+  EXPECT_TRUE(drawApart(
+      frames, 3, [&](int frame) { draw(frame); }, [&] { ++done; }));
+  EXPECT_EQ(done, 24);
+  EXPECT_EQ(renderer_, nullptr) << "it was drawn here";
+  draw(99);
+  const auto bytes = scenes::fileText(file(99));
+  ASSERT_TRUE(bytes);
+  for (const int frame : frames) EXPECT_EQ(scenes::fileText(file(frame)), bytes) << frame;
+}
+
+TEST_F(DrawApart, NamesAFrameThatCannotBeDrawn) {
+  picture_.instances[0].position.x() = std::numeric_limits<float>::infinity();
+  try {
+    drawApart({3}, 2, [&](int frame) { draw(frame); });
+    FAIL() << "it was drawn";
+  } catch (const CheckFailed& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("frame 3 cannot be drawn: ", 0), 0u) << error.what();
+  }
+}
+
+TEST_F(DrawApart, TellsWhatAProcessThrewAndBeginsNothingMore) {
+  std::vector<int> frames(100);
+  std::iota(frames.begin(), frames.end(), 0);
+  EXPECT_THROW(drawApart(frames, 2,
+                         [&](int frame) {
+                           if (frame == 5) throw EnvironmentError("no space");
+                           std::ofstream(file(frame)) << frame;
+                         }),
+               EnvironmentError);
+  EXPECT_TRUE(std::filesystem::exists(file(4)));
+  EXPECT_FALSE(std::filesystem::exists(file(50)));
 }
 
 }  // namespace

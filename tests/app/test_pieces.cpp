@@ -1,9 +1,6 @@
 // The small parts of the program that are worth asking directly.
 #include <gtest/gtest.h>
 
-#include <thread>
-
-#include "app/base/bounded_queue.h"
 #include "app/base/html.h"
 #include "app/base/nearest.h"
 #include "app/base/numbers.h"
@@ -39,26 +36,6 @@ TEST(NearestWord, FindsMisspellingsAndNothingElse) {
   EXPECT_EQ(app::nearestWord("rendr", known), "render");
   EXPECT_EQ(app::nearestWord("simualte", known), "simulate");
   EXPECT_EQ(app::nearestWord("xyzzyplugh", known), "");
-}
-
-TEST(BoundedQueue, KeepsTheOrderAndMakesTheProducerWait) {
-  app::BoundedQueue<int> queue(2);
-  std::thread producer([&queue] {
-    for (int i = 0; i < 1000; ++i) queue.push(i);
-    queue.close();
-  });
-  for (int i = 0; i < 1000; ++i) EXPECT_EQ(queue.pop(), i);
-  EXPECT_EQ(queue.pop(), std::nullopt);
-  producer.join();
-}
-
-TEST(BoundedQueue, ClosingFreesAWaitingProducerAndDropsItsItem) {
-  app::BoundedQueue<int> queue(1);
-  EXPECT_TRUE(queue.push(1));
-  std::thread producer([&queue] { EXPECT_FALSE(queue.push(2)); });
-  queue.close(true);
-  producer.join();
-  EXPECT_EQ(queue.pop(), std::nullopt);
 }
 
 TEST(Html, TextCannotBecomeMarkup) {
