@@ -76,12 +76,13 @@ void writeDivergence(const DivergeOptions& options, const RunSource& a, const Ru
   for (const char* old : {"difference.csv", "difference.png", "parting.png"}) {
     removeFile(folder / old);
   }
-  if (!divergence.differences.empty()) {
-    writeFile(folder / "difference.csv", divergeCsv(a, divergence));
+  const bool differ = !divergence.differences.empty();
+  if (differ) writeFile(folder / "difference.csv", divergeCsv(a, divergence));
+  drawParting(options, a, b, divergence, folder);
+  if (differ) {
     writeCharts(fmt::format("{} beside {}", a.path.string(), b.path.string()),
                 {divergeChart(divergence.differences)}, folder / "difference.png");
   }
-  drawParting(options, a, b, divergence, folder);
   if (!options.common.quiet) say(folder.string() + "/\n");
 }
 

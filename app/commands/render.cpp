@@ -251,7 +251,10 @@ ExitCode renderScene(RenderOptions options) {
     const scenes::Simulation start(scene);
     take->write(scene, drawnMotion(start, job), job.view.overlays);
   }
-  if (trust) writeTrust(*trust, job.folder);
+  if (trust) {
+    writeTrust(*trust, job.folder);
+    drawTrustChart(*trust, job.folder);
+  }
   if (trust && !options.common.quiet) say(trustText(*trust));
   if (!options.common.quiet) say(summary(scene, job, result));
   if (options.common.hash) sayHash(result, job);

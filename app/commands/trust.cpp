@@ -91,6 +91,7 @@ ExitCode measureAndShow(const TrustOptions& options) {
   }
   const ExitCode drawn =
       trust.code == ExitCode::kInterrupted ? trust.code : drawTrust(options, trust, folder);
+  if (trust.code != ExitCode::kInterrupted) drawTrustChart(trust, folder);
   if (drawn == ExitCode::kInterrupted) {
     note("dbd: interrupted; frames and tables that are there are whole\n");
     return drawn;

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "app/base/output_file.h"
-#include "app/run/draw_apart.h"
 #include "render/png.h"
 
 namespace app {
@@ -82,12 +81,15 @@ void writeCharts(const std::string& title, const std::vector<render::Chart>& cha
     page.plots.push_back({{12, top}, {kWidth - 12, top + kHeight - 8}, chart, kTextSize});
     top += kHeight;
   }
-  drawApart({0}, 1, [&](int) { render::writePng(render::PagePrinter().print(page), file); });
+  render::writePng(render::PagePrinter().print(page), file);
 }
 
 void writeTrust(const Trust& trust, const std::filesystem::path& folder) {
   writeFile(folder / "trust.json", jsonText(trustJson(trust), 1) + "\n");
   writeFile(folder / "difference.csv", trustCsv(trust));
+}
+
+void drawTrustChart(const Trust& trust, const std::filesystem::path& folder) {
   writeCharts(fmt::format("{}: accuracy {:g} beside {:g}", trust.plan.scene.name,
                           trust.plan.accuracy, trust.plan.accuracy / 10),
               {trustChart(trust)}, folder / "difference.png");
